@@ -55,6 +55,17 @@ class PlaneGrid {
         return work;
     }
 
+    /// Whether near() would find nothing at all.
+    bool isEmptyNear(glm::dvec2 place, double reach) const {
+        const auto x0 = static_cast<std::size_t>(column(place.x - reach)),
+                   x1 = static_cast<std::size_t>(column(place.x + reach));
+        for (int y = line(place.y - reach); y <= line(place.y + reach); ++y) {
+            const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_);
+            if (starts_[first + x0] != starts_[first + x1 + 1]) return false;
+        }
+        return true;
+    }
+
     /// Calls visit(index) for all within `reach` of `place`, and for some further away.
     template <class Visit>
     void near(glm::dvec2 place, double reach, Visit&& visit) const {

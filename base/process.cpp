@@ -43,6 +43,10 @@ struct Pipe {
 Pipe makePipe() {
     int ends[2];
     if (::pipe2(ends, O_CLOEXEC) != 0) throw std::system_error(systemError(errno), "cannot make a pipe");
+    // So that who writes megabytes is not waited for every 64 KiB; where it may not be so large, it works,
+    // too.
+    constexpr int kRoomInPipe = 1 << 20;
+    ::fcntl(ends[1], F_SETPIPE_SZ, kRoomInPipe);
     return {movedUp(ends[0]), movedUp(ends[1])};
 }
 

@@ -76,7 +76,7 @@ void printResult(const io::BakeResult& result, const Account& account, const io:
 }
 
 /// A device that is lost takes nothing along that the last checkpoint has.
-BakeRun bakeOrLeave(Baker& baker, const LoadedLayout& loaded, const BakeJob& job,
+BakeRun bakeOrLeave(Baker& baker, LoadedLayout& loaded, const BakeJob& job,
                     const InterruptGuard& interrupt) try {
     return baker.bake(loaded, job, interrupt);
 } catch (const gl::DeviceLost& error) {
@@ -126,7 +126,7 @@ void bakeLayout(const BakeRequest& options) {
         return signal == SIGTERM && options.checkpoint_minutes > 0.0 ? WhenStopped::checkpoint
                                                                      : WhenStopped::keep_partial;
     };
-    const LoadedLayout loaded = loadLayout(options.layout, overridesOf(options), [&] {
+    LoadedLayout loaded = loadLayout(options.layout, overridesOf(options), [&] {
         return makeDeviceFields(fieldsBy(options.fields), options.device, options.shader_dir);
     });
     Baker baker(options.device, options.shader_dir, loaded.scene.people.size());

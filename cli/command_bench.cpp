@@ -7,6 +7,7 @@
 #include <iostream>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <thread>
 
 #include "base/files/output_file.h"
@@ -192,10 +193,11 @@ void writeCrowd(const std::string& path, const authoring::Scene& scene) {
 /// many as there are from one decision of people to the next.
 void runStep(const StepOptions& options) {
     const gl::Context context({options.crowd.device, false});
-    const authoring::Scene scene = crowdOf(options.crowd);
-    if (!options.table.empty()) writeCrowd(options.table, scene);
-    sim::Simulation simulation(scene, gl::ShaderLibrary(), costsFor(context.device()));
-    const int steps = scene.settings.stepsPerDecision();
+    std::optional<authoring::Scene> scene = crowdOf(options.crowd);
+    if (!options.table.empty()) writeCrowd(options.table, *scene);
+    sim::Simulation simulation(*scene, gl::ShaderLibrary(), costsFor(context.device()));
+    const int steps = scene->settings.stepsPerDecision();
+    scene.reset();  // the device has it all
     for (int step = 0; step < steps; ++step)
         simulation.step();
     simulation.wait();

@@ -92,7 +92,7 @@ void addGenerate(CLI::App& app) {
     CLI::App* command = app.add_subcommand("generate", "Make a layout from a few numbers");
     auto options = std::make_shared<GenerateOptions>();
     command->add_option("kind", options->kind,
-                        "crossing, corridor, streets, plaza, stadium, station or office");
+                        "crossing, corridor, streets, marathon, plaza, stadium, station or office");
     command->add_option("--set", options->settings, "A parameter, e.g. --set arms=5 (repeatable)")
         ->take_all()
         ->expected(1);

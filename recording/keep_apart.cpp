@@ -11,10 +11,11 @@
 namespace throng::recording {
 namespace {
 
-constexpr double kSlack = 0.004;   // of the sum of radii: overlaps this deep stay
-constexpr double kMoved = 1.0e-3;  // m: who moved less is where the simulation had it
-constexpr double kMargin = 0.05;   // m: pairs this far apart may be pushed together by others
-constexpr double kDeep = 0.005;    // of the sum of radii, beyond kSlack: not to be left
+constexpr double kSlack = 0.004;      // of the sum of radii: overlaps this deep stay
+constexpr double kMoved = 1.0e-3;     // m: who moved less is where the simulation had it
+constexpr double kMargin = 0.05;      // m: pairs this far apart may be pushed together by others
+constexpr double kDeep = 0.005;       // of the sum of radii, beyond kSlack: not to be left
+constexpr double kRounding = 1.0e-6;  // m^2: far above rounding
 constexpr int kRounds = 8, kAttempts = 3, kHalvings = 12;
 
 /// From the first to the second, where they are nearest to each other: for discs, between their middles.
@@ -76,6 +77,10 @@ void KeepApart::findPairs(const std::vector<MovedBody>& bodies) {
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {
         if (!moved(i)) continue;
         grid_.near(places_[i], bodies[i].radius + largest + kMargin, [&](std::uint32_t j) {
+            // Most of those whom the grid finds are too far away whatever their bodies are.
+            const glm::dvec2 apart = places_[j] - places_[i];
+            const double most = bodies[i].radius + bodies[j].radius + kMargin;
+            if (glm::dot(apart, apart) > most * most + kRounding) return;
             if (j == i || (j < i && moved(j)) || !areOnOneGround(bodies[i].height, bodies[j].height)) return;
             const double reach = reachOf(bodies[i], bodies[j]);
             if (glm::length(between(bodies[i], bodies[j])) < reach + kMargin)
@@ -109,6 +114,7 @@ void KeepApart::clearWalls(std::vector<MovedBody>& bodies) {
 
 /// As near to its average place as walls let it be, on the straight way from where the simulation had it.
 void KeepApart::clearWalls(MovedBody& body) {
+    if (walls_.isFar(body.simulated, glm::distance(body.simulated, body.place) + body.radius)) return;
     walls_.standAt(body.height);
     constexpr double kTouches = 1.0e-4;  // m
     const double allowed = std::max(kTouches, walls_.penetration(body.shapeAt(body.simulated)));

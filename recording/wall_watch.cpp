@@ -34,8 +34,10 @@ WallWatch::WallWatch(std::vector<authoring::Wall> walls, glm::dvec2 minimum, glm
                                  wall.closed ? 0.0 : 0.5 * wall.thickness, index});
     }
     double length = 0.0;
-    for (const Segment& each : segments_)
+    for (const Segment& each : segments_) {
         length += glm::distance(each.a, each.b);
+        thickest_ = std::max(thickest_, std::min(each.half_thickness, kThickest));
+    }
     spacing_ = std::max(kSpacing, length / kMostSamples);
     for (std::uint32_t i = 0; i < segments_.size(); ++i) {
         const int pieces = 1 + static_cast<int>(glm::distance(segments_[i].a, segments_[i].b) / spacing_);
@@ -56,9 +58,13 @@ bool WallWatch::counts(const Segment& segment) const {
     return height_ > ground.x - kHigher && height_ < ground.y + kHigher;
 }
 
+bool WallWatch::isFar(glm::dvec2 place, double reach) const {
+    return thickest_ < kThickest && grid_.isEmptyNear(place, reach + spacing_ + thickest_);
+}
+
 template <class Visit>
 void WallWatch::near(glm::dvec2 place, double reach, Visit&& visit) const {
-    const double around = reach + spacing_ + kThickest;
+    const double around = reach + spacing_ + thickest_;
     // Of a wall that reaches far out of the bounds, all samples there are in the cells at the edge.
     const std::size_t all = segments_.size() + kFewCells;
     if (grid_.workNear(place, around, all) > all) {

@@ -22,6 +22,8 @@ class WallWatch {
     void look(double before, double now);
     /// Whose walls count from here on: those of who stands at this height, m. Matters with `ground` only.
     void standAt(double height) { height_ = height; }
+    /// No wall, of whatever storey, comes as near to a place as that, m. It may say no where that is so, too.
+    bool isFar(glm::dvec2 place, double reach) const;
     /// Whether the straight line between two frames goes through a wall's axis or outline.
     bool crosses(glm::dvec2 before, glm::dvec2 after) const;
     /// How far a body is inside a wall, m; 0 where it is clear.
@@ -44,6 +46,7 @@ class WallWatch {
     std::vector<bool> open_;  // by wall
     std::vector<Segment> segments_;
     double spacing_ = 1.0;             // m
+    double thickest_ = 0.0;            // m: the largest half thickness
     std::vector<glm::dvec2> samples_;  // along the segments, at most spacing_ apart
     std::vector<std::uint32_t> sample_segment_;
     PlaneGrid grid_;

@@ -50,16 +50,17 @@ std::vector<gpu::AgentState> initialStates(const authoring::Scene& scene) {
     return states;
 }
 
+bool isDisc(const gpu::Person& person) {
+    return person.half_axis == 0.0f;
+}
+
 std::vector<gpu::Chest> initialChests(const authoring::Scene& scene) {
     std::vector<gpu::Chest> chests;
+    if (std::ranges::all_of(scene.people, isDisc)) return chests;  // no program asks for them
     chests.reserve(scene.people.size());
     for (const gpu::Person& person : scene.people)
         chests.push_back({person.heading, 0.0f, person.half_axis, person.half_axis});
     return chests;
-}
-
-bool isDisc(const gpu::Person& person) {
-    return person.half_axis == 0.0f;
 }
 
 std::vector<std::uint32_t> initialSiteSlots(const authoring::Scene& scene, std::size_t rows) {
@@ -263,7 +264,6 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
     };
     cell_counts = zeros("cell counts", gpu::CELLS_PER_STRIP * strips, "cell");
     cell_offsets = zeros("cell offsets", gpu::CELLS_PER_STRIP * strips, "cell");
-    cell_cursors = zeros("cell cursors", gpu::CELLS_PER_STRIP * strips, "cell");
     strip_counts = zeros("strip counts", strips, "strip");
     strip_marks = zeros("strip marks", strips, "strip");
     strip_starts = zeros("strip starts", strips, "strip");
@@ -275,7 +275,6 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
     fill_dispatch = gl::Buffer("fill dispatch", gl::kWord * 4);
     row_cells = gl::Buffer("row cells", {rows, gl::kWord, kPerson});
     row_cells.fill(gpu::NO_INDEX);
-    loose_rows = gl::Buffer("loose rows", {rows, gl::kWord, kPerson});
     live_dispatch = gl::Buffer("live dispatch", gl::kWord * 4);
     live_dispatch.fill(0);
 
@@ -478,7 +477,6 @@ std::vector<std::pair<std::string, const gl::Buffer*>> Buffers::named() const {
             {"NarrowCells", &narrow_cells},
             {"CellCounts", &cell_counts},
             {"CellOffsets", &cell_offsets},
-            {"CellCursors", &cell_cursors},
             {"StripCounts", &strip_counts},
             {"StripMarks", &strip_marks},
             {"StripStarts", &strip_starts},
@@ -488,7 +486,7 @@ std::vector<std::pair<std::string, const gl::Buffer*>> Buffers::named() const {
             {"FillDispatch", &fill_dispatch},
             {"GroupSums", &strip_group_sums},
             {"RowCells", &row_cells},
-            {"LooseRows", &loose_rows},
+            {"LooseRows", &touch_slots},
             {"LiveDispatch", &live_dispatch},
             {"SiteSlots", &site_slots},
             {"Bodies", &bodies},

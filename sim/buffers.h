@@ -47,12 +47,13 @@ struct Buffers {
     gl::Buffer vehicle_services, vehicle_doors, door_states, door_wishes, new_aboard, passengers;
     gl::Buffer platforms, platform_points, platform_vehicles, calls, call_heads;
 
-    gl::Buffer cell_counts, cell_offsets, cell_cursors;                    // per cell
+    gl::Buffer cell_counts, cell_offsets;                                  // per cell
     gl::Buffer strip_counts, strip_marks, strip_starts, strip_group_sums;  // per strip of cells
     gl::Buffer strip_list, strip_list_end, fill_dispatch;
-    gl::Buffer row_cells, loose_rows, live_dispatch;
+    gl::Buffer row_cells, live_dispatch;
     gl::Buffer site_slots;  // by ids of sites: also the order in which gradient1 draws
     gl::Buffer bodies, walkers, sites;
+    // Until people have looked round, touch_slots holds rows on their way into cells (LooseRows).
     gl::Buffer neighbours, neighbour_counts, touch_words, touch_lists, touch_slots, touch_dispatch, weights;
     gl::Buffer preferred_velocities, decisions, ways, targets, targets_after;
 

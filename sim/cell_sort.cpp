@@ -18,12 +18,13 @@ const gl::Declaration kScan = {
     {"StripStarts", "StripListEnd", "FillDispatch", "LiveDispatch", "TouchDispatch"}};
 const gl::Declaration kFill = {"cells",
                                {"shaders/cells/strips_fill.comp"},
-                               {"FillDispatch", "StripList", "StripStarts", "CellCounts"},
-                               {"StripCounts", "StripMarks", "CellCounts", "CellOffsets", "CellCursors"}};
-const gl::Declaration kScatter = {"cells",
-                                  {"shaders/cells/cells_scatter.comp"},
-                                  {"ParametersBlock", "RowCells", "LiveDispatch", "CellCursors"},
-                                  {"CellCursors", "LooseRows", "SiteSlots"}};
+                               {"FillDispatch", "StripList", "CellCounts"},
+                               {"StripCounts", "StripMarks", "CellOffsets"}};
+const gl::Declaration kScatter = {
+    "cells",
+    {"shaders/cells/cells_scatter.comp"},
+    {"ParametersBlock", "RowCells", "LiveDispatch", "CellCounts", "CellOffsets", "StripStarts"},
+    {"CellCounts", "LooseRows", "SiteSlots"}};
 const gl::Declaration kGather = {
     "cells",
     {"shaders/cells/bodies_gather.comp"},

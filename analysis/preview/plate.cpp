@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "analysis/preview/colour.h"
+#include "analysis/preview/marks.h"
 #include "base/activities.h"
 #include "base/text/printable.h"
 
@@ -345,29 +346,24 @@ void Plate::drawDensity(cairo_t* context, const io::CrowdFrame& now) const {
         }
 }
 
-void Plate::drawTrails(cairo_t* context, const io::CrowdFrame& now) {
+void Plate::drawTrails(const io::CrowdFrame& now) {
     const std::uint32_t length = trailFrames(bake_, options_);
     const std::uint32_t stride = std::max(1u, length / 24);
     if (length == 0) return;
+    Marks marks(canvas_.get());
     io::CrowdFrame later = now;
-    cairo_set_line_width(context, std::max(1.0, 0.10 * scale_));
-    cairo_set_line_cap(context, CAIRO_LINE_CAP_BUTT);  // they join
-    cairo_set_antialias(context, CAIRO_ANTIALIAS_FAST);
+    const auto width = static_cast<float>(std::max(1.0, 0.10 * scale_));
     for (std::uint32_t back = stride; back <= length && back <= now.index(); back += stride) {
         const io::CrowdFrame earlier = crowd_.frame(now.index() - back);
         const double alpha = 0.42 * (1.0 - static_cast<double>(back) / length);
         for (std::size_t row = 0; row < bake_.agents; ++row) {
             if (!isShown(later, row) || !isShown(earlier, row)) continue;
-            const glm::dvec2 a = toPixel(later.place(row).x, later.place(row).y);
-            const glm::dvec2 b = toPixel(earlier.place(row).x, earlier.place(row).y);
-            setColour(context, groupColour(groups_.group_of[row]), alpha);
-            cairo_move_to(context, a.x, a.y);
-            cairo_line_to(context, b.x, b.y);
-            cairo_stroke(context);
+            marks.use(groupColour(groups_.group_of[row]), alpha);
+            marks.line(toPixel(later.place(row).x, later.place(row).y),
+                       toPixel(earlier.place(row).x, earlier.place(row).y), width);
         }
         later = earlier;
     }
-    cairo_set_antialias(context, CAIRO_ANTIALIAS_DEFAULT);
 }
 
 void Plate::drawWall(cairo_t* context, const authoring::Wall& wall) const {
@@ -402,38 +398,30 @@ void Plate::drawGates(cairo_t* context, std::uint32_t frame) const {
 }
 
 /// Discs all alike, but for what the ground makes of them; bodies that are none as they are, from above.
-double Plate::drawBody(cairo_t* context, glm::dvec2 at, const Capsule& body, double size) const {
+double Plate::drawBody(Marks& marks, glm::dvec2 at, const Capsule& body, double size) const {
     if (body.axis == glm::dvec2(0.0)) {
         const double radius = std::max(1.6, 0.25 * size * scale_);
-        cairo_arc(context, at.x, at.y, radius, 0.0, 2.0 * std::numbers::pi);
-        cairo_fill(context);
+        marks.disc(at, static_cast<float>(radius));
         return radius;
     }
     const double thickness = std::max(1.6, body.thickness * scale_);
     const glm::dvec2 axis = scale_ * glm::dvec2(body.axis.x, -body.axis.y);
-    cairo_save(context);
-    cairo_set_line_width(context, 2.0 * thickness);
-    cairo_set_line_cap(context, CAIRO_LINE_CAP_ROUND);
-    cairo_move_to(context, at.x - axis.x, at.y - axis.y);
-    cairo_line_to(context, at.x + axis.x, at.y + axis.y);
-    cairo_stroke(context);
-    cairo_restore(context);
+    marks.capsule(at - axis, at + axis, static_cast<float>(thickness));
     return thickness;
 }
 
-void Plate::drawPeople(cairo_t* context, const io::CrowdFrame& now) const {
+void Plate::drawPeople(const io::CrowdFrame& now) const {
+    constexpr Colour kNose = colourFromHex(0xffffff);
+    Marks marks(canvas_.get());
     for (std::size_t row = 0; row < bake_.agents; ++row) {
         if (!isShown(now, row)) continue;
         const glm::dvec2 at = toPixel(now.place(row).x, now.place(row).y);
-        const glm::dvec2 ahead(now.facing(row).x, -now.facing(row).y);
-        setColour(context, groupColour(groups_.group_of[row]), strengthOf(now, row));
-        const double radius = drawBody(context, at, now.body(row, people_[row]), now.size(row));
+        const glm::dvec2 ahead(now.facing(row).x, -now.facing(row).y), beside(-ahead.y, ahead.x);
+        marks.use(groupColour(groups_.group_of[row]), strengthOf(now, row));
+        const double radius = drawBody(marks, at, now.body(row, people_[row]), now.size(row));
         // A nose: a white wedge tells which way somebody looks.
-        cairo_set_source_rgba(context, 1.0, 1.0, 1.0, 0.9);
-        cairo_move_to(context, at.x + ahead.x * radius, at.y + ahead.y * radius);
-        cairo_line_to(context, at.x - ahead.y * 0.42 * radius, at.y + ahead.x * 0.42 * radius);
-        cairo_line_to(context, at.x + ahead.y * 0.42 * radius, at.y - ahead.x * 0.42 * radius);
-        cairo_fill(context);
+        marks.use(kNose, 0.9);
+        marks.triangle(at + ahead * radius, at + beside * (0.42 * radius), at - beside * (0.42 * radius));
     }
 }
 
@@ -478,10 +466,10 @@ cairo_surface_t* Plate::draw(std::uint32_t frame) {
     cairo_set_source_surface(context, layout_.get(), 0.0, 0.0);
     cairo_paint(context);
     if (options_.density) drawDensity(context, now);
-    drawTrails(context, now);
+    drawTrails(now);
     drawGates(context, frame);
     traffic_.drawFrame(context, view(), frame);
-    drawPeople(context, now);
+    drawPeople(now);
     drawCaption(context, now);
     cairo_surface_flush(canvas_.get());
     return canvas_.get();

@@ -18,6 +18,8 @@
 
 namespace throng::analysis {
 
+class Marks;
+
 /// Draws frames of one bake. What does not move is drawn once.
 class Plate {
   public:
@@ -51,10 +53,10 @@ class Plate {
     void drawWall(cairo_t* context, const authoring::Wall& wall) const;
     void drawGates(cairo_t* context, std::uint32_t frame) const;
     void drawDensity(cairo_t* context, const io::CrowdFrame& now) const;
-    void drawTrails(cairo_t* context, const io::CrowdFrame& now);
+    void drawTrails(const io::CrowdFrame& now);
     /// @returns how far it reaches ahead, px
-    double drawBody(cairo_t* context, glm::dvec2 at, const Capsule& body, double size) const;
-    void drawPeople(cairo_t* context, const io::CrowdFrame& now) const;
+    double drawBody(Marks& marks, glm::dvec2 at, const Capsule& body, double size) const;
+    void drawPeople(const io::CrowdFrame& now) const;
     void drawCaption(cairo_t* context, const io::CrowdFrame& now) const;
     void drawScaleBar(cairo_t* context) const;
     void placeLegend();

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "analysis/plot/png.h"
+#include "analysis/preview/film_planes.h"
 #include "analysis/preview/plate.h"
 #include "base/files/output_file.h"
 #include "base/process.h"
@@ -35,14 +36,15 @@ void publish(const std::filesystem::path& from, const std::filesystem::path& to)
 /// ffmpeg, which takes raw frames.
 class Encoder {
   public:
-    Encoder(const Plate& plate, const std::filesystem::path& path) : path_(path) {
+    Encoder(const Plate& plate, const std::filesystem::path& path)
+        : path_(path), planes_(plate.width(), plate.height()) {
         // Without -xerror it ends well where the last of the film found no room on the disk.
         std::vector<std::string> words = {"ffmpeg", "-loglevel", "error", "-nostdin", "-xerror", "-y"};
         const auto add = [&](std::initializer_list<std::string> more) { words.insert(words.end(), more); };
-        add({"-f", "rawvideo", "-pix_fmt", "bgr0", "-s",
+        add({"-f", "rawvideo", "-pix_fmt", "yuv420p", "-s",
              fmt::format("{}x{}", plate.width(), plate.height())});
         add({"-r", fmt::format("{}", plate.fps()), "-i", "-"});
-        add({"-c:v", "libx264", "-preset", "veryfast", "-pix_fmt", "yuv420p", "-crf", "20", "-f", "mp4",
+        add({"-c:v", "libx264", "-preset", "superfast", "-pix_fmt", "yuv420p", "-crf", "22", "-f", "mp4",
              path.string()});
         try {
             process_.emplace(words, ProcessOptions{.input = StandardStream::pipe});
@@ -54,11 +56,13 @@ class Encoder {
         }
     }
 
-    void add(cairo_surface_t* surface, int height) {
-        const auto bytes = static_cast<std::size_t>(cairo_image_surface_get_stride(surface)) *
-                           static_cast<std::size_t>(height);
-        const auto* pixels = reinterpret_cast<const char*>(cairo_image_surface_get_data(surface));
-        if (const std::error_code error = process_->write({pixels, bytes}))
+    void add(cairo_surface_t* surface) {
+        const auto* pixels = reinterpret_cast<const std::uint32_t*>(cairo_image_surface_get_data(surface));
+        const auto stride =
+            static_cast<std::size_t>(cairo_image_surface_get_stride(surface)) / sizeof *pixels;
+        const std::vector<std::uint8_t>& planes = planes_.of(pixels, stride);
+        if (const std::error_code error =
+                process_->write({reinterpret_cast<const char*>(planes.data()), planes.size()}))
             throw OutputError(path_, "write the film", error.value());
     }
     void finish() {
@@ -68,6 +72,7 @@ class Encoder {
 
   private:
     std::filesystem::path path_;
+    FilmPlanes planes_;
     std::optional<Process> process_;
 };
 
@@ -91,7 +96,7 @@ void writePreviewVideo(const std::filesystem::path& bake, const std::filesystem:
     try {
         Encoder encoder(plate, temporary);
         for (std::uint32_t frame = 0; frame < plate.frames(); ++frame) {
-            encoder.add(plate.draw(frame), plate.height());
+            encoder.add(plate.draw(frame));
             progress(static_cast<double>(frame + 1) / plate.frames());
         }
         encoder.finish();

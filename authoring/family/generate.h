@@ -49,6 +49,20 @@ inline std::uint64_t shareOf(std::uint64_t whole, std::uint64_t number, std::uin
     return whole * (number + 1) / of - whole * number / of;
 }
 
+/// Where the streets of one direction run, each in the middle of its width, and where the blocks between them
+/// begin and end.
+struct StreetLines {
+    std::vector<double> streets;
+    std::vector<std::pair<double, double>> blocks;
+    double end = 0.0;
+};
+/// One street more than there are blocks. @param values with `block` and `width`
+/// @param which tells the draws of one direction from the other's
+StreetLines layStreets(std::uint64_t blocks, const GeneratorValues& values, const char* which);
+
+/// The houses between streets, as closed walls.
+void addBlocks(Json& layout, const StreetLines& across, const StreetLines& along);
+
 /// What every layout begins with.
 Json frameOf(const std::string& name, const GeneratorValues& values);
 
@@ -62,6 +76,7 @@ void addPillars(Json& layout, const std::vector<glm::dvec2>& centres, double rad
 Json crossing(const GeneratorValues& values);
 Json corridor(const GeneratorValues& values);
 Json streets(const GeneratorValues& values);
+Json marathon(const GeneratorValues& values);
 Json plaza(const GeneratorValues& values);
 Json stadium(const GeneratorValues& values);
 /// A stadium with seats.

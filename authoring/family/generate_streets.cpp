@@ -114,20 +114,10 @@ Json corridor(const GeneratorValues& values) {
     return layout;
 }
 
-namespace {
-
-/// Where the streets of one direction run, each in the middle of its width, and where the blocks between them
-/// begin and end.
-struct Lines {
-    std::vector<double> streets;
-    std::vector<std::pair<double, double>> blocks;
-    double end = 0.0;
-};
-
-Lines layLines(std::uint64_t blocks, const GeneratorValues& values, const char* which) {
+StreetLines layStreets(std::uint64_t blocks, const GeneratorValues& values, const char* which) {
     const GroupRandom random(values.whole("seed"), which);
     const double width = values["width"];
-    Lines lines;
+    StreetLines lines;
     for (std::uint64_t i = 0; i <= blocks; ++i) {
         lines.streets.push_back(lines.end + 0.5 * width);
         lines.end += width;
@@ -139,11 +129,21 @@ Lines layLines(std::uint64_t blocks, const GeneratorValues& values, const char* 
     return lines;
 }
 
-}  // namespace
+void addBlocks(Json& layout, const StreetLines& across, const StreetLines& along) {
+    for (std::size_t row = 0; row < along.blocks.size(); ++row)
+        for (std::size_t column = 0; column < across.blocks.size(); ++column)
+            layout["walls"].push_back({{"id", fmt::format("block {}-{}", column + 1, row + 1)},
+                                       {"closed", true},
+                                       {"height", 15.0},
+                                       {"points", rectangle(across.blocks[column].first + kPavement,
+                                                            along.blocks[row].first + kPavement,
+                                                            across.blocks[column].second - kPavement,
+                                                            along.blocks[row].second - kPavement)}});
+}
 
 Json streets(const GeneratorValues& values) {
-    const Lines across = layLines(values.whole("columns"), values, "columns");
-    const Lines along = layLines(values.whole("rows"), values, "rows");
+    const StreetLines across = layStreets(values.whole("columns"), values, "columns");
+    const StreetLines along = layStreets(values.whole("rows"), values, "rows");
     constexpr double kBeyond = 8.0;  // m that streets lead out of the grid
     Json layout = frameOf("streets", values);
     std::vector<std::string> ends;
@@ -159,15 +159,7 @@ Json streets(const GeneratorValues& values) {
     for (std::size_t i = 0; i < across.streets.size(); ++i)
         add_street(fmt::format("avenue {}", i + 1), {across.streets[i], -kBeyond},
                    {across.streets[i], along.end + kBeyond});
-    for (std::size_t row = 0; row < along.blocks.size(); ++row)
-        for (std::size_t column = 0; column < across.blocks.size(); ++column)
-            layout["walls"].push_back({{"id", fmt::format("block {}-{}", column + 1, row + 1)},
-                                       {"closed", true},
-                                       {"height", 15.0},
-                                       {"points", rectangle(across.blocks[column].first + kPavement,
-                                                            along.blocks[row].first + kPavement,
-                                                            across.blocks[column].second - kPavement,
-                                                            along.blocks[row].second - kPavement)}});
+    addBlocks(layout, across, along);
     for (const std::string& from : ends) {
         Json goals = Json::object();
         for (const std::string& to : ends)

@@ -46,6 +46,16 @@ constexpr GeneratorParameter kStreets[] = {
     kDuration,
     kWarmup,
     kSeed};
+constexpr GeneratorParameter kMarathon[] = {
+    {"people", 1000, 1, 2000000, true, "who stand in a field before the town and run through it"},
+    {"spacing", 1.2, 0.9, 5, false, "m between them"},
+    {"columns", 3, 1, 12, true, "blocks from the field to the finish; the town is as wide as the field"},
+    {"block", 40, 8, 200, false, "m, side of a block; they vary by a quarter"},
+    {"width", 12, 3, 40, false, "m, of the streets"},
+    {"waves", 1, 1, 50, true, "in which they set off, the first lines first"},
+    {"interval", 10, 0, 600, false, "s between two waves"},
+    kDuration,
+    kSeed};
 constexpr GeneratorParameter kPlaza[] = {
     {"size", 30, 10, 300, false, "m, across"},
     {"exits", 4, 2, 8, true, "openings, evenly round it"},
@@ -94,6 +104,7 @@ constexpr Generator kGenerators[] = {
     {"crossing", "streets that meet in one place, walls on the corners", kCrossing, generate::crossing},
     {"corridor", "two streams between two walls, pillars if wanted", kCorridor, generate::corridor},
     {"streets", "a grid of streets between blocks", kStreets, generate::streets},
+    {"marathon", "people run from a field through all streets of a town", kMarathon, generate::marathon},
     {"plaza", "a walled square with openings and random pillars", kPlaza, generate::plaza},
     {"stadium", "people leave a ring of seats by gates in the outer wall", kStadium, generate::stadium},
     {"station", "platforms over a concourse, with stairs and escalators", kStation, generate::station},

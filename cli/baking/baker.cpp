@@ -252,6 +252,15 @@ void stop(BakeRun& run, Run& running, io::BakeWriter& writer, WhenStopped what) 
     }
 }
 
+/// Hundreds of bytes a person, and all cells of all fields.
+void forgetWhatTheDeviceHas(authoring::Scene& scene) {
+    scene.people = {};
+    scene.stages = {};
+    scene.goals = {};
+    scene.fields.fields = {};
+    scene.detours.distances = {};
+}
+
 /// Mesa's software renderer wakes its threads for every pass: for small crowds that takes several times
 /// longer than the work. It asks the environment, once.
 gl::Context::Options contextFor(int device, std::size_t people) {
@@ -267,7 +276,7 @@ Baker::Baker(int device, const std::string& shader_dir, std::size_t people)
     shaders_.keepPrograms();
 }
 
-BakeRun Baker::bake(const LoadedLayout& loaded, const BakeJob& job, const InterruptGuard& interrupt) {
+BakeRun Baker::bake(LoadedLayout& loaded, const BakeJob& job, const InterruptGuard& interrupt) {
     const Clock::time_point begin = Clock::now();
     const authoring::SimulationSettings& settings = loaded.scene.settings;
     recording::BakeDescription description = describeBake(loaded, job.options, device());
@@ -290,6 +299,7 @@ BakeRun Baker::bake(const LoadedLayout& loaded, const BakeJob& job, const Interr
     const std::unique_ptr<io::BakeWriter> writer = makeWriter(description, job, checkpoint);
     sim::Simulation simulation = simulate(loaded.scene);
     context_.check("setting up the simulation");
+    forgetWhatTheDeviceHas(loaded.scene);
 
     Run running(context_, simulation, settings, job, *writer, description, identity);
     if (checkpoint) running.goOnFrom(*checkpoint);

@@ -69,7 +69,7 @@ class Baker {
     sim::Simulation simulate(const authoring::Scene& scene) const { return {scene, shaders_, costs_}; }
 
     /// @throws whatever simulating and writing throw; nothing is left behind then but checkpoints
-    BakeRun bake(const LoadedLayout& loaded, const BakeJob& job, const InterruptGuard& interrupt);
+    BakeRun bake(LoadedLayout& loaded, const BakeJob& job, const InterruptGuard& interrupt);
 
   private:
     gl::Context context_;

@@ -10,6 +10,7 @@ import typing
 
 import benchmarks
 import blender
+import jobs
 import motion
 import pages
 import storeys
@@ -41,6 +42,7 @@ TABLES = {
     "rvo2": Table("benchmarks/llvmpipe/rvo2.md", 10, benchmarks.rvo2),
     "step": Table("benchmarks/step.md", 2, benchmarks.step),
     "predicted": Table("benchmarks/predicted.md", 1, benchmarks.predicted),
+    "jobs": Table("benchmarks/jobs.md", 12, jobs.jobs),
     "batch": Table("benchmarks/batch.md", 3, benchmarks.batch),
     "blender": Table("benchmarks/blender.md", 15, blender.blender),
 }

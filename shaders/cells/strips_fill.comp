@@ -6,12 +6,10 @@
 layout(local_size_x = SCAN_GROUP_SIZE) in;
 layout(std430) readonly buffer FillDispatch { uint fill_groups[3]; uint fill_total; };
 layout(std430) readonly buffer StripList { uint strip_list[]; };
-layout(std430) readonly buffer StripStarts { uint strip_starts[]; };
 layout(std430) writeonly buffer StripCounts { uint strip_counts[]; };
 layout(std430) writeonly buffer StripMarks { uint strip_marks[]; };
-layout(std430) buffer CellCounts { uint cell_counts[]; };
+layout(std430) readonly buffer CellCounts { uint cell_counts[]; };
 layout(std430) writeonly buffer CellOffsets { uint cell_offsets[]; };
-layout(std430) writeonly buffer CellCursors { uint cell_cursors[]; };
 
 const uint BATCH = 16u;  // a divisor of CELLS_PER_STRIP
 
@@ -20,7 +18,6 @@ void main() {
     uint strip = strip_list[gl_GlobalInvocationID.x];
     strip_counts[strip] = 0u;  // ready to count the next step
     strip_marks[strip] = 0u;
-    uint start = strip_starts[strip];
     uint offset = 0u;
     uint first = strip * CELLS_PER_STRIP;
     for (uint batch = first; batch < first + CELLS_PER_STRIP; batch += BATCH) {
@@ -28,9 +25,6 @@ void main() {
         for (uint i = 0u; i < BATCH; ++i) people[i] = cell_counts[batch + i];
         for (uint i = 0u; i < BATCH; ++i) {
             cell_offsets[batch + i] = offset;
-            if (people[i] == 0u) continue;
-            cell_counts[batch + i] = 0u;
-            cell_cursors[batch + i] = start + offset;
             offset += people[i];
         }
     }

@@ -17,10 +17,12 @@ void main() {
     if (row >= parameters.row_count) return;
     bool alive = isAlive(states[row].status);
     float half_axis = people[row].half_axis;
-    float turned = chests[row].angle - states[row].heading;
+    Chest chest = Chest(0.0, 0.0, 0.0, 0.0);
+    if (half_axis != 0.0) chest = chests[row];  // where all are discs, nobody has one
+    float turned = chest.angle - states[row].heading;
     float twist = half_axis != 0.0 ? atan(sin(turned), cos(turned)) : 0.0;
     float across = abs(half_axis * (half_axis >= 0.0 ? cos(twist) : sin(twist)));
     values[3u * row] = alive ? twist : 0.0;
-    values[3u * row + 1u] = alive && half_axis != 0.0 ? chests[row].rate : 0.0;
+    values[3u * row + 1u] = alive ? chest.rate : 0.0;
     values[3u * row + 2u] = alive ? 2.0 * (people[row].radius - abs(half_axis) + across) : 0.0;
 }

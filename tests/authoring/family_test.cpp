@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/vec2.hpp>
 #include <numeric>
 
 #include "authoring/family/family_reader.h"
@@ -238,6 +239,49 @@ TEST(Generators, TheSameNumbersGiveTheSameLayoutAndAnotherSeedAnother) {
         EXPECT_NE(layout, generator.make(values));
         Diagnostics diagnostics;
         EXPECT_TRUE(readLayout(layout.dump(), {}, diagnostics)) << generator.name;
+    }
+}
+
+/// Where the people of a grid stand that is turned round, before they are moved from there.
+std::vector<glm::dvec2> placesOf(const Json& grid) {
+    std::vector<glm::dvec2> places;
+    EXPECT_EQ(grid["rotation"], 180);
+    for (int column = 0; column < grid["columns"].get<int>(); ++column)
+        for (int row = 0; row < grid["rows"].get<int>(); ++row)
+            if (places.size() < grid["count"].get<std::size_t>())
+                places.emplace_back(grid["origin"][0].get<double>() - column * grid["spacing"].get<double>(),
+                                    grid["origin"][1].get<double>() - row * grid["spacing"].get<double>());
+    return places;
+}
+
+TEST(Generators, EverybodyOfAMarathonStandsInTheFieldAndNobodyBesideAnother) {
+    for (const double people : {1.0, 63.0, 1234.0, 30000.0}) {
+        GeneratorValues values(generatorNamed("marathon")->parameters);
+        values.set("people", people);
+        values.set("waves", 5);
+        const Json layout = generatorNamed("marathon")->make(values);
+        const Json& corners = layout["areas"][0]["polygon"];
+        const double west = corners[0][0].get<double>(), north = corners[2][1].get<double>();
+        std::vector<glm::dvec2> places;
+        double wait = -1.0, front = 0.0;
+        for (const Json& wave : layout["formations"]) {
+            const std::vector<glm::dvec2> its_own = placesOf(wave);
+            EXPECT_GT(wave.value("wait", 0.0), wait) << "who stands further back sets off later";
+            wait = wave.value("wait", 0.0);
+            for (const glm::dvec2 place : its_own)
+                EXPECT_LT(place.x, front - 0.49) << people;
+            front = its_own.back().x;
+            places.insert(places.end(), its_own.begin(), its_own.end());
+        }
+        EXPECT_EQ(places.size(), static_cast<std::size_t>(people));
+        for (const glm::dvec2 place : places)
+            EXPECT_TRUE(place.x > west + 0.5 && place.x < -0.5 && place.y > 0.5 && place.y < north - 0.5)
+                << people;
+        const auto streets = std::ranges::count_if(layout["roads"], [](const Json& road) {
+            return road["id"].get<std::string>().starts_with("street");
+        });
+        EXPECT_EQ(layout["walls"].size(), 1u + 3u * static_cast<std::size_t>(streets - 1))
+            << "houses between them";
     }
 }
 

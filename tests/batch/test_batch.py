@@ -178,12 +178,13 @@ def generators(throng):
     return found
 
 
-@pytest.mark.parametrize("kind", ["crossing", "corridor", "streets", "plaza", "stadium", "station", "office"])
+@pytest.mark.parametrize("kind", ["crossing", "corridor", "streets", "marathon", "plaza", "stadium", "station",
+                                  "office"])
 @pytest.mark.slow
 def test_whatever_is_generated_is_valid(throng, kind, tmp_path):
     chance = random.Random(kind)
     whole = {"arms", "pillars", "columns", "rows", "exits", "people", "seed", "stands", "platforms",
-             "escalators", "floors", "rooms"}
+             "escalators", "floors", "rooms", "waves"}
     parameters = generators(throng)[kind]
     schema = jsonschema.Draft7Validator(json.loads(throng("schema").stdout))
     for attempt in range(12):
@@ -209,6 +210,7 @@ def test_generated_people_get_where_they_want_to(throng, tmp_path):
                            "plaza": {"size": 14, "pillars": 10},
                            "corridor": {"length": 14, "pillars": 4},
                            "streets": {"columns": 1, "rows": 1, "block": 10, "width": 4},
+                           "marathon": {"people": 234, "columns": 1, "block": 10, "width": 6, "waves": 3, "interval": 2},
                            "stadium": {"radius": 12, "stand": 5, "people": 60},
                            "stands": {"kind": "stadium", "stands": 3, "radius": 15, "stand": 8, "people": 60},
                            "station": {"people": 60, "time": 5, "duration": 120},
@@ -217,7 +219,7 @@ def test_generated_people_get_where_they_want_to(throng, tmp_path):
                                     "axes": [{"parameter": "seed", "range": [1, 2]}], "bake": {"keep": False}}))
         throng("batch", plan, "-o", tmp_path / kind, "-q")
         for row in rows(tmp_path / kind):
-            least = 1.0 if kind in ("stands", "station", "office") else 0.3
+            least = 1.0 if kind in ("marathon", "stands", "station", "office") else 0.3
             assert row["arrived"] >= least * row["agents"] and row["wall_crossings"] == 0, (kind, row)
             assert row["stuck"] <= 0.05 * row["agents"], (kind, row)
 
