@@ -54,6 +54,7 @@ struct Buffers {
     gl::Buffer site_slots;  // by ids of sites: also the order in which gradient1 draws
     gl::Buffer bodies, walkers, sites;
     gl::Buffer neighbours, neighbour_counts, touch_words, touch_lists, touch_slots, touch_dispatch, weights;
+    gl::Buffer near_lists;  // of bodies that are no discs
     gl::Buffer preferred_velocities, decisions, ways, targets, targets_after;
 
     /// A program with all of these buffers that it declares.
