@@ -150,6 +150,7 @@ struct CrowdOptions {
     std::uint32_t people = 4096;
     std::string proximity = "voronoi";
     int device = -1;
+    bool bodies = false;  ///< as deep as chests
 };
 
 struct StepOptions {
@@ -164,6 +165,8 @@ void addCrowd(CLI::App& command, CrowdOptions& options) {
     command.add_option("--proximity", options.proximity, "What finds neighbours")
         ->check(CLI::IsMember({"voronoi", "grid"}))
         ->capture_default_str();
+    command.add_flag("--bodies", options.bodies,
+                     "People have bodies that are as deep as chests, instead of discs");
 }
 
 void addDevice(CLI::App& command, int& device) {
@@ -174,6 +177,10 @@ authoring::Scene crowdOf(const CrowdOptions& options) {
     authoring::Scene scene = sim::ProximityBenchmark{}.crowd(options.people);
     scene.settings.proximity =
         options.proximity == "grid" ? authoring::Proximity::grid : authoring::Proximity::voronoi;
+    constexpr float kDepthOverBreadth = 0.25f / 0.47f;  // of adults: `body` in the layout's schema
+    if (options.bodies)
+        for (gpu::Person& person : scene.people)
+            person.half_axis = person.radius * (1.0f - kDepthOverBreadth);
     return scene;
 }
 
@@ -297,7 +304,8 @@ void addLaunches(CLI::App& bench) {
     CLI::Option* layout =
         command->add_option("--layout", options->layout, "Of this layout instead of such a crowd")
             ->excludes("--people")
-            ->excludes("--proximity");
+            ->excludes("--proximity")
+            ->excludes("--bodies");
     command->add_option("--after", options->after, "Seconds of the layout that go before")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str()

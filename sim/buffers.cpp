@@ -295,6 +295,7 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
     neighbour_counts = gl::Buffer("neighbour counts", {rows, gl::kWord, kPerson});
     touch_words = gl::Buffer("touch words", {rows, gl::kWord, kPerson});
     touch_lists = gl::Buffer("touch lists", {rows, gl::kWord * gpu::TOUCH_CAPACITY, kPerson});
+    if (has_bodies_) near_lists = gl::Buffer("near lists", {rows, gl::kWord * gpu::NEAR_WORDS, kPerson});
     touch_slots = gl::Buffer("touch slots", {rows, gl::kWord, kPerson});
     touch_dispatch = gl::Buffer("touch dispatch", gl::kWord * 4);
     weights = gl::Buffer("weights", {rows, sizeof(glm::vec2), kPerson});
@@ -496,6 +497,7 @@ std::vector<std::pair<std::string, const gl::Buffer*>> Buffers::named() const {
             {"NeighbourCounts", &neighbour_counts},
             {"TouchWords", &touch_words},
             {"TouchLists", &touch_lists},
+            {"NearLists", &near_lists},
             {"TouchSlots", &touch_slots},
             {"TouchDispatch", &touch_dispatch},
             {"Weights", &weights},

@@ -55,6 +55,7 @@ struct Buffers {
     gl::Buffer bodies, walkers, sites;
     // Until people have looked round, touch_slots holds rows on their way into cells (LooseRows).
     gl::Buffer neighbours, neighbour_counts, touch_words, touch_lists, touch_slots, touch_dispatch, weights;
+    gl::Buffer near_lists;  // of bodies that are no discs
     gl::Buffer preferred_velocities, decisions, ways, targets, targets_after;
 
     /// A program with all of these buffers that it declares.

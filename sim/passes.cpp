@@ -48,9 +48,9 @@ const gl::Declaration kContact = {
     "contacts",
     {"shaders/motion/contact.comp"},
     {"ParametersBlock", "TouchDispatch", "TouchSlots", "Bodies", "Walkers", "PreferredVelocities",
-     "TouchWords", "Weights", "TouchLists", "WallSegments", "WallStarts", "WallItems", "StripStarts",
-     "CellOffsets", "TargetsBefore", "TargetsAfter"},
-    {"TargetsAfter"}};
+     "TouchWords", "Weights", "TouchLists", "NearLists", "WallSegments", "WallStarts", "WallItems",
+     "StripStarts", "CellOffsets", "TargetsBefore", "TargetsAfter"},
+    {"NearLists", "TargetsAfter"}};
 const gl::Declaration kMove = {
     "motion",
     {"shaders/motion/move.comp"},
@@ -163,6 +163,27 @@ Contacts::Contacts(const gl::ShaderLibrary& library, const Buffers& buffers, int
     back_.bind("TargetsAfter", places.targets);
     for (gl::ComputeProgram* program : {&weigh_, &forth_, &back_})
         program->bind("TouchWords", places.touch_words);
+    if (buffers.hasBodies()) makeFirstRounds(library, rules);
+}
+
+void Contacts::makeFirstRounds(const gl::ShaderLibrary& library, const MotionSettings& rules) {
+    for (int iteration = 0; iteration < std::clamp(braced_, 1, 3); ++iteration) {
+        gl::Definitions own;
+        if (iteration == 0) own.emplace_back("FIRST_ROUND", "1");
+        if (iteration < braced_) own.emplace_back("BRACED", "1");
+        first_rounds_.push_back(
+            buffers_.connect(library, kContact, together(buffers_.definitions(rules), own)));
+        const bool forth = iteration % 2 == 0;
+        first_rounds_.back().bindAll({{"TargetsBefore", forth ? &places_.targets : &places_.targets_after},
+                                      {"TargetsAfter", forth ? &places_.targets_after : &places_.targets},
+                                      {"TouchWords", &places_.touch_words}});
+    }
+}
+
+gl::ComputeProgram& Contacts::programOf(int iteration) {
+    const bool forth = iteration % 2 == 0;
+    if (first_rounds_.empty() || (iteration > 0 && iteration >= braced_)) return forth ? forth_ : back_;
+    return first_rounds_[iteration == 0 ? 0 : forth ? 2 : 1];
 }
 
 void Contacts::run(const std::function<void(const gl::Buffer&)>& hold) {
@@ -173,7 +194,7 @@ void Contacts::run(const std::function<void(const gl::Buffer&)>& hold) {
         // Two plain rounds first: momentum needs something to go on.
         if (iteration == 2) momentum = 2.0f / (2.0f - squared);
         if (iteration > 2) momentum = 4.0f / (4.0f - squared * momentum);
-        gl::ComputeProgram& round = iteration % 2 ? back_ : forth_;
+        gl::ComputeProgram& round = programOf(iteration);
         round.set("momentum", momentum);
         round.setIfUsed("bracing", iteration < braced_ ? 1.0f : 0.0f);
         round.dispatchUpTo(buffers_.slotCapacity(), buffers_.touch_dispatch);

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 #include "sim/buffers.h"
 #include "sim/gl/program.h"
@@ -84,6 +85,9 @@ class Contacts {
     const gl::Buffer& result() const { return iterations_ % 2 ? places_.targets_after : places_.targets; }
 
   private:
+    void makeFirstRounds(const gl::ShaderLibrary& library, const MotionSettings& rules);
+    gl::ComputeProgram& programOf(int iteration);
+
     const Buffers& buffers_;
     Places places_;
     Seams* seams_ = nullptr;
@@ -91,6 +95,9 @@ class Contacts {
     int braced_;             // of these, the first ones, in which weights count
     float spectral_radius_;  // 0 = without momentum
     gl::ComputeProgram weigh_, forth_, back_;
+    /// Where bodies are no discs: the first round, and those with weights, back and forth. The others are
+    /// spared what only these do.
+    std::vector<gl::ComputeProgram> first_rounds_;
 };
 
 /// Ends the step: positions, headings, gait, routes, arrivals.

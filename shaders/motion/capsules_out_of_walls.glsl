@@ -44,13 +44,43 @@ void pushFromWall(WallSegment wall, Body self, vec2 start, bool turns, inout vec
     if (turns) target.zw = withinATurn(turnedBy(target.zw, turn * push), start);
 }
 
-vec4 keepOutOfWalls(Body self, vec2 start, vec4 target) {
+#ifdef FIRST_ROUND
+
+/// Notes the walls that may move the body in the rounds that follow. @returns how many they are
+uint noteWalls(Body self, uint slot, vec4 target) {
     uint cell = cellIndex(cellOf(self.position));
-    uint first = wall_starts[cell];
-    uint last = wall_starts[cell + 1u];
+    uint found = 0u;
+    for (uint i = wall_starts[cell]; i < wall_starts[cell + 1u]; ++i) {
+        WallSegment wall = wall_segments[wall_items[i]];
+        float away = length(nearestOnSegment(target.xy, wall.a, wall.b) - target.xy);
+        if (away - wall.half_thickness - self.radius >= NEAR_ENOUGH) continue;
+        if (found < NEAR_WALLS) near_lists[slot * NEAR_WORDS + 1u + NEAR_CAPACITY + found] = wall_items[i];
+        ++found;
+    }
+    return found;
+}
+
+#endif
+
+/// @param listed how many walls the list holds: 0 where they are those of the cell
+vec4 keepOutOfWalls(Body self, uint slot, uint listed_walls, vec2 start, vec4 target) {
+    uint cell = cellIndex(cellOf(self.position));
+    uint first = listed_walls > 0u ? slot * NEAR_WORDS + 1u + NEAR_CAPACITY : wall_starts[cell];
+    uint last = listed_walls > 0u ? first + listed_walls : wall_starts[cell + 1u];
     // Leaving one wall may lead into the next: a few rounds settle corners, the last ones without turning.
-    for (int round = 0; round < 4; ++round)
-        for (uint i = first; i < last; ++i)
-            pushFromWall(wall_segments[wall_items[i]], self, start, round < 2, target);
+    int round = 0;
+    vec4 was;
+    do {
+        was = target;
+        uint i = first;
+        do {
+#ifdef FIRST_ROUND
+            uint wall = wall_items[i];
+#else
+            uint wall = listed_walls > 0u ? near_lists[i] : wall_items[i];
+#endif
+            pushFromWall(wall_segments[wall], self, start, round < 2, target);
+        } while (++i < last);
+    } while (++round < 4 && target != was);
     return target;
 }

@@ -18,6 +18,11 @@ layout(std430) readonly buffer TouchSlots { uint touch_slots[]; };
 layout(std430) readonly buffer Bodies { Body bodies[]; };
 #ifdef BODIES
 layout(std430) readonly buffer Walkers { Walker walkers[]; };
+#ifdef FIRST_ROUND
+layout(std430) writeonly buffer NearLists { uint near_lists[]; };  // NEAR_WORDS each
+#else
+layout(std430) readonly buffer NearLists { uint near_lists[]; };
+#endif
 #endif
 layout(std430) readonly buffer PreferredVelocities { vec2 preferred_velocities[]; };
 layout(std430) readonly buffer TouchWords { uint touch_words[]; };
@@ -29,7 +34,9 @@ layout(std430) readonly buffer WallItems { uint wall_items[]; };
 layout(std430) readonly buffer TargetsBefore { TARGET targets_before[]; };
 layout(std430) buffer TargetsAfter { TARGET targets_after[]; };  // those before the last round's; then new ones
 uniform float momentum;  // 1 = none
+#ifndef BODIES
 uniform float bracing;   // 1 = who is carried off its way gives less than others, 0 = all give alike
+#endif
 
 #include "shaders/shared/at_most.glsl"
 #include "shaders/shared/snap.glsl"
@@ -75,21 +82,32 @@ void main() {
     // Only those who may touch something are listed; for all others the two target buffers already agree.
     if (gl_GlobalInvocationID.x >= touch_count) return;
     uint slot = touch_slots[gl_GlobalInvocationID.x];
+#if defined(BODIES) && !defined(FIRST_ROUND)
+    uint touch_word = near_lists[slot * NEAR_WORDS];
+#else
     uint touch_word = touch_words[slot];
-    uint touching = touch_word & TOUCH_COUNT_MASK;
+#endif
     Body self = bodies[slot];
 #ifdef BODIES
     vec2 start = vec2(walkers[slot].axis_x, walkers[slot].axis_y);
     vec4 target = targets_before[slot];
-    Push push = pushFromNeighbours(self, slot, touching, target);
+    Push push = pushFromNeighbours(self, slot, touch_word & TOUCH_COUNT_MASK, target);
     target.xy += snapped(atMost(push.way, CONTACT_MOST_PUSH * self.radius));
     target.zw = turnedBy(target.zw, push.turn);
     target = goneOn(targets_after[slot], target);
     target.zw = withinATurn(target.zw, start);
-    targets_after[slot] = (touch_word & TOUCH_WALL_NEAR) != 0u ? keepOutOfWalls(self, start, target) : target;
+#ifdef FIRST_ROUND
+    bool walls = (touch_word & TOUCH_WALL_NEAR) != 0u;
+    if (walls) target = keepOutOfWalls(self, slot, 0u, start, target);
+    near_lists[slot * NEAR_WORDS] = near | (walls ? noteWalls(self, slot, target) << NEAR_WALLS_AT : 0u);
+#else
+    uint walls = touch_word >> NEAR_WALLS_AT;
+    if (walls > 0u) target = keepOutOfWalls(self, slot, walls <= NEAR_WALLS ? walls : 0u, start, target);
+#endif
+    targets_after[slot] = target;
 #else
     vec2 position = targets_before[slot];
-    vec2 push = pushFromNeighbours(self, slot, touching, position);
+    vec2 push = pushFromNeighbours(self, slot, touch_word & TOUCH_COUNT_MASK, position);
     position += snapped(atMost(push, CONTACT_MOST_PUSH * self.radius));
     position = goneOn(targets_after[slot], position);
     targets_after[slot] = (touch_word & TOUCH_WALL_NEAR) != 0u ? outOfWalls(self, position) : position;

@@ -41,6 +41,14 @@ const uint TOUCH_IN_NARROWS = 0x20000000u;   // it is in a narrow passage, or cl
 /// Touch lists hold this many slots; where more bodies crowd together, contact goes back to the cells.
 const uint TOUCH_CAPACITY = 16u;
 
+/// What is near enough to push somebody in the rounds of a step, where bodies are no discs
+/// (shaders/motion/capsules_apart.glsl): a word that counts bodies, like a touch word, and walls; then the
+/// slots of those; then these.
+const uint NEAR_CAPACITY = 15u;
+const uint NEAR_WALLS = 4u;
+const uint NEAR_WALLS_AT = 16u;  // where the bits begin that count walls
+const uint NEAR_WORDS = 1u + NEAR_CAPACITY + NEAR_WALLS;
+
 /// Wall constraints that one person heeds at a time: the nearest ones.
 const uint WALL_CONSTRAINTS = 8u;
 
