@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "authoring/scene/formation_placer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "authoring/layout/plan.h"
+#include "authoring/scene/formation_complaints.h"
+#include "authoring/scene/listed_agents.h"
+#include "authoring/scene/people.h"
+#include "authoring/scene/placed_bodies.h"
+#include "authoring/scene/walls.h"
+
+namespace throng::authoring {
+namespace {
+
+constexpr float kPauseTolerance = 1.0f;  // m: who is pushed about before setting off does not mind
+constexpr std::uint64_t kPauseDraw = 900;
+
+/// Who walks together ends together: no further from the first one's goal than standing side by side
+/// takes.
+glm::dvec2 goalOf(const Formation& formation, const FormationPlaces& places, std::uint64_t i,
+                  std::uint64_t leader) {
+    if (i == leader) return places.goals[i];
+    const auto* grid = std::get_if<GridFormation>(&formation.shape);
+    const bool by_chance = grid && std::holds_alternative<Extent>(grid->goal);
+    const std::vector<glm::dvec2>& pattern = by_chance ? places.positions : places.goals;
+    const glm::dvec2 offset = pattern[i] - pattern[leader];
+    const double most = 0.8 * static_cast<double>(i - leader);
+    return places.goals[leader] + offset * std::min(1.0, most / std::max(glm::length(offset), 1.0e-9));
+}
+
+gpu::Stage pointStage(glm::vec2 point, float tolerance) {
+    gpu::Stage stage{};
+    stage.point = stage.facing = point;
+    stage.tolerance = tolerance;
+    stage.field = stage.line = gpu::NO_INDEX;
+    stage.activity = gpu::ACTIVITY_STAND;
+    return stage;
+}
+
+double wallGap(const Capsule& shape, const gpu::WallSegment& wall) {
+    const glm::dvec2 half = 0.5 * glm::dvec2(wall.b - wall.a);
+    return segmentsDistance(shape.middle - 0.5 * glm::dvec2(wall.a + wall.b), shape.axis, half) -
+           shape.thickness - wall.half_thickness;
+}
+
+}  // namespace
+
+std::vector<Routes::PointGoal> pointGoals(const Layout& layout, const Rebase& rebase,
+                                          const WalkGeometry& geometry, const Scene& scene) {
+    std::vector<Routes::PointGoal> goals;
+    if (!geometry.hasObstacles()) return goals;
+    for (std::size_t index = 0; index < layout.formations.size(); ++index) {
+        const Formation& formation = layout.formations[index];
+        if (formation.behaviour) continue;
+        const FormationPlaces places = formationPlaces(formation, layout.simulation.seed);
+        if (places.goals.empty()) continue;
+        std::uint64_t i = 0;
+        forEachRow(scene, layout.flows.size() + index, [&](const gpu::Person& person) {
+            const Traveller traveller = travellerOf(scene, person, layout.flows.size() + index, i);
+            glm::vec2 from = person.spawn_position;
+            const auto goOn = [&](glm::dvec2 to) {
+                const glm::vec2 goal = rebase.local(to);
+                goals.emplace_back(goal, isStraight(geometry, from, goal, person.radius));
+                from = goal;
+            };
+            for (const Waypoint& waypoint : wayOf(formation, i))
+                goOn(waypoint.point);
+            if (!ownDestination(formation, i)) goOn(goalOf(formation, places, i, traveller.leader));
+            ++i;
+        });
+    }
+    return goals;
+}
+
+class FormationPlacer::Impl {
+  public:
+    Impl(const Placing& with, const std::vector<gpu::WallSegment>& closed_gates)
+        : with_(with), closed_gates_(closed_gates) {}
+
+    void place(const Formation& formation, std::size_t formation_index) {
+        const std::size_t index = with_.layout.flows.size() + formation_index;
+        const FormationPlaces places = formationPlaces(formation, with_.layout.simulation.seed);
+        const GroupRandom random(with_.layout.simulation.seed, formation.id);
+        const Behaviour plan = planOf(with_.layout, formation);
+        Journey journey{fmt::format("formation `{}`", formation.id), formation.where};
+        const bool shared = !plan.states.front().to.places.empty();
+        if (shared) journey.stops = wayFrom(plan, plan.start);
+        const std::uint32_t state = formation.behaviour ? addBehaviour(formation, index, journey) : 0;
+        PlacedBodies later;  // who comes in at the same time
+        double since = 0.0;
+        std::uint64_t i = 0;
+        forEachRow(with_.scene, index, [&](gpu::Person& person) {
+            const Traveller traveller = travellerOf(with_.scene, person, index, i);
+            const double start = startOf(formation, i);
+            if (start != std::exchange(since, start)) later = {};
+            PlacedBodies& bodies = start == 0.0 ? bodies_ : later;
+            person.first_stage = static_cast<std::uint32_t>(with_.scene.stages.size());
+            addPause(formation, i, random, traveller, person);
+            if (formation.behaviour) {
+                with_.behaviours.begin(person, rowOf(with_.scene, person), state);
+            } else {
+                const Destination* own = ownDestination(formation, i);
+                if (own) journey.stops = {goalState(*own, formation.arrival)};
+                const glm::vec2 from = addWay(formation, i, person);
+                if (own || shared) {
+                    person.stage_count += with_.itineraries.appendStages(journey, random, traveller);
+                    const std::uint32_t field = with_.scene.stages.back().field & ~gpu::FIELD_THEN_POINT;
+                    if (with_.routes.reachable(field, from) == kUnreachable)
+                        complaints_.add(i, "cannot reach its goal", "look for walls all round it");
+                } else {
+                    addGoal(formation, i, from,
+                            with_.rebase.local(goalOf(formation, places, i, traveller.leader)), person);
+                }
+            }
+            with_.scene.goals.push_back(with_.scene.stages.back().point);
+            const std::size_t first = with_.scene.stages.size() - 1 - wayOf(formation, i).size();
+            turn(formation, i, with_.scene.stages[first], person);
+            checkStart(i, start, person, bodies);
+            addPlanChanges(with_, plan, formation.people,
+                           {{person.spawn_position, person.spawn_position, person.spawn_position}}, random, i,
+                           index, person);
+            if (bodies.hasRoom(person)) {
+                if (start == 0.0) person.flags |= gpu::PERSON_PRESENT_AT_START;
+                bodies.add(person);
+            }
+            ++i;
+        });
+        complaints_.tell(formation, with_.diagnostics);
+    }
+
+  private:
+    /// Those who do not set off at once first stop where they stand.
+    void addPause(const Formation& formation, std::uint64_t i, const GroupRandom& random,
+                  const Traveller& traveller, gpu::Person& person) {
+        const ListedAgent* agent = listed(formation, i);
+        const double wait = agent && agent->wait
+                                ? *agent->wait
+                                : random.draw(formation.wait, traveller.leader, Purpose::wait, kPauseDraw);
+        if (wait <= 0.0) return;
+        gpu::Stage pause = pointStage(person.spawn_position, kPauseTolerance);
+        pause.dwell = static_cast<float>(wait);
+        with_.scene.stages.push_back(pause);
+        ++person.stage_count;
+    }
+
+    /// The places on somebody's way. @returns the last of them, or where it begins
+    glm::vec2 addWay(const Formation& formation, std::uint64_t i, gpu::Person& person) {
+        glm::vec2 from = person.spawn_position;
+        for (const Waypoint& waypoint : wayOf(formation, i))
+            from = addLeg(formation, i, from, with_.rebase.local(waypoint.point),
+                          static_cast<float>(waypoint.wait), &waypoint, person);
+        return from;
+    }
+
+    /// A goal that is a point.
+    void addGoal(const Formation& formation, std::uint64_t i, glm::vec2 from, glm::vec2 goal,
+                 gpu::Person& person) {
+        const float dwell = formation.arrival == Arrival::stay ? gpu::DWELL_FOR_GOOD : 0.0f;
+        addLeg(formation, i, from, goal, dwell, nullptr, person);
+        const auto* grid = std::get_if<GridFormation>(&formation.shape);
+        if (grid && std::holds_alternative<Extent>(grid->goal))
+            with_.scene.stages.back().flags |= gpu::STAGE_ANYWHERE;
+    }
+
+    /// @param waypoint null: it is the goal
+    glm::vec2 addLeg(const Formation& formation, std::uint64_t i, glm::vec2 from, glm::vec2 to, float dwell,
+                     const Waypoint* waypoint, gpu::Person& person) {
+        gpu::Stage stage = pointStage(to, static_cast<float>(formation.goal_tolerance));
+        stage.dwell = dwell;
+        findWay(formation, i, waypoint, person, from, stage);
+        with_.scene.stages.push_back(stage);
+        ++person.stage_count;
+        return to;
+    }
+
+    /// By which field somebody goes from one place to that of a stage, where there are walls.
+    /// @param waypoint null: it is the goal
+    void findWay(const Formation& formation, std::uint64_t i, const Waypoint* waypoint,
+                 const gpu::Person& person, glm::vec2 from, gpu::Stage& stage) {
+        const glm::vec2 goal = stage.point;
+        if (!with_.geometry.hasObstacles()) return;
+        if (const auto near = whyUnattainable(formation, person, goal)) {
+            complaints_.add(i, waypoint ? "has a place of its way in a wall" : "has its goal in a wall",
+                            near->empty() ? "move the goal, or the wall"
+                                          : "move the goal, or the wall, or raise `goal_tolerance`",
+                            *near, Severity::error, waypoint);
+            return;
+        }
+        // Even where the straight way is clear, others may push somebody round a corner on the way.
+        const bool clear = isStraight(with_.geometry, from, goal, person.radius);
+        const std::uint32_t field = with_.routes.fieldTo({goal, clear});
+        if (field == gpu::NO_INDEX) {
+            if (!clear) with_.routes.lackField();
+            return;
+        }
+        if (with_.routes.reachable(field, from) == kUnreachable) {
+            if (!clear)
+                complaints_.add(i, waypoint ? "cannot reach a place of its way" : "cannot reach its goal",
+                                "there is a wall all round one of the two", "", Severity::error, waypoint);
+            return;
+        }
+        stage.field = field | gpu::FIELD_THEN_POINT;
+    }
+
+    /// A goal may be nearer to a wall than a body gets to it, as long as it gets near enough.
+    /// @returns nothing for goals that will do; no words where a goal is in the wall itself
+    std::optional<std::string> whyUnattainable(const Formation& formation, const gpu::Person& person,
+                                               glm::vec2 goal) const {
+        constexpr float kHair = 1.0e-4f;  // m, of rounding
+        const float depth = wallDepth(with_.geometry, goal, thicknessOf(person));
+        if (depth <= static_cast<float>(formation.goal_tolerance) + kHair &&
+            wallDepth(with_.geometry, goal, 0.0f) <= 0.0f && !isInSolid(goal))
+            return std::nullopt;
+        const float apart = thicknessOf(person) - depth;  // from the wall
+        if (apart > 0.0f && !isInSolid(goal))
+            return fmt::format(
+                ", or nearer to one than its body can come: {:.2f} m from it, with a radius of {:.2f} m and "
+                "a `goal_tolerance` of {:.2f} m",
+                apart, thicknessOf(person), formation.goal_tolerance);
+        return "";
+    }
+
+    bool isInSolid(glm::vec2 point) const {
+        return std::any_of(with_.geometry.solids.begin(), with_.geometry.solids.end(),
+                           [&](const LocalPolygon& solid) { return insidePolygon(solid, point); });
+    }
+
+    /// People look where their way leads.
+    void turn(const Formation& formation, std::size_t i, const gpu::Stage& stage, gpu::Person& person) const {
+        glm::vec2 ahead = wayBetween(with_.scene, person.spawn_position, stage.point);
+        if (stage.field != gpu::NO_INDEX && (stage.field & gpu::FIELD_THEN_POINT) != 0)
+            if (const glm::vec2 way =
+                    with_.routes.directionFrom(stage.field & ~gpu::FIELD_THEN_POINT, person.spawn_position);
+                way != glm::vec2(0.0f))
+                ahead = way;
+        person.heading = ahead == glm::vec2(0.0f) ? 0.0f : std::atan2(ahead.y, ahead.x);
+        if (const ListedAgent* agent = listed(formation, i); agent && agent->heading)
+            person.heading = static_cast<float>(*agent->heading * 3.14159265358979 / 180.0);
+    }
+
+    /// m: how far into walls somebody stands.
+    float depthInWalls(const gpu::Person& person) const {
+        const Capsule shape = shapeOf(person);
+        float depth = -kUnreachable;
+        for (const double along : {-1.0, 0.0, 1.0})
+            depth = std::max(depth, wallDepth(with_.geometry, glm::vec2(shape.middle + along * shape.axis),
+                                              static_cast<float>(shape.thickness)));
+        return depth;
+    }
+
+    void checkStart(std::uint64_t i, double start, const gpu::Person& person, const PlacedBodies& bodies) {
+        if (const float depth = depthInWalls(person); depth > 0.0f)
+            complaints_.add(i, "stands in a wall", "move it, or the wall",
+                            fmt::format(" ({:.2f} m deep)", depth));
+        if (start == 0.0)
+            for (const gpu::WallSegment& gate : closed_gates_)
+                if (wallGap(shapeOf(person), gate) < 0.0) {
+                    complaints_.add(
+                        i, fmt::format("stands in the closed gate `{}`", with_.layout.walls[gate.wall].id),
+                        "move it, or open the gate at the start");
+                    break;
+                }
+        if (!bodies.hasRoom(person))
+            complaints_.add(
+                i,
+                "starts where somebody else stands: it comes in once there is room, or is refused in the end",
+                "move it, by both bodies' radii or more", "", Severity::warning);
+    }
+
+    /// The state in which a formation's people begin.
+    std::uint32_t addBehaviour(const Formation& formation, std::size_t index, const Journey& journey) const {
+        const glm::vec2 place = with_.scene.people[with_.scene.queues[index].first_row].spawn_position;
+        return with_.behaviours.add(
+            with_.layout.behaviours[*formation.behaviour],
+            {journey.traveller, index, false, "where they stand", {{place, place, place}}});
+    }
+
+    Placing with_;
+    const std::vector<gpu::WallSegment>& closed_gates_;
+    PlacedBodies bodies_;
+    FormationComplaints complaints_;  // about the formation at hand
+};
+
+FormationPlacer::FormationPlacer(const Placing& with, const std::vector<gpu::WallSegment>& closed_gates)
+    : impl_(std::make_unique<Impl>(with, closed_gates)) {}
+FormationPlacer::~FormationPlacer() = default;
+
+void FormationPlacer::place(const Formation& formation, std::size_t formation_index) {
+    impl_->place(formation, formation_index);
+}
+
+}  // namespace throng::authoring
