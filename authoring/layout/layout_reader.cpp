@@ -12,11 +12,14 @@
 #include "authoring/layout/amounts.h"
 #include "authoring/layout/behaviour_reader.h"
 #include "authoring/layout/boarding_reader.h"
+#include "authoring/layout/event_reader.h"
+#include "authoring/layout/flow_reader.h"
+#include "authoring/layout/formation_reader.h"
 #include "authoring/layout/given_reader.h"
+#include "authoring/layout/goal_reader.h"
 #include "authoring/layout/level_reader.h"
 #include "authoring/layout/object_reader.h"
 #include "authoring/layout/patch_reader.h"
-#include "authoring/layout/people_reader.h"
 #include "authoring/layout/place_reader.h"
 #include "authoring/layout/plan.h"
 #include "authoring/layout/polygon_check.h"
@@ -54,14 +57,14 @@ class Reader {
         traffic_.finish();
         if (const JsonNode* node = reader.get("terrain")) readTerrain(*node);
         eachOf(reader, "behaviours", [this](const JsonNode& node) { behaviours_.read(node); });
-        eachOf(reader, "flows", [this](const JsonNode& node) { readFlow(node); });
-        eachOf(reader, "formations", [this](const JsonNode& node) { readFormation(node); });
+        eachOf(reader, "flows", [this](const JsonNode& node) { flows_.read(node); });
+        eachOf(reader, "formations", [this](const JsonNode& node) { formations_.read(node); });
         eachOf(reader, "given", [this](const JsonNode& node) { given_.read(node); });
         eachOf(reader, "seats", [this](const JsonNode& node) { seats_.readBlock(node); });
-        eachOf(reader, "events", [this](const JsonNode& node) { readEvent(node); });
+        eachOf(reader, "events", [this](const JsonNode& node) { events_.read(node); });
         eachOf(reader, "shows", [this](const JsonNode& node) { seats_.readShow(node); });
         eachOf(reader, "attractions", [this](const JsonNode& node) { readAttraction(node); });
-        sortEvents();
+        events_.sort();
         seats_.open();
         behaviours_.finish();
         if (const JsonNode* node = reader.get("expect")) readExpectations(*node);
@@ -151,7 +154,8 @@ class Reader {
         const SchemaRule rule = schema_.definition("expect");
         ObjectReader reader(node, rule, "`expect`", diagnostics_);
         if (!reader.isObject()) return;
-        if (const JsonNode* line = node.find("line")) layout_.flow_line = lineOf(reader, "line", *line);
+        if (const JsonNode* line = node.find("line"))
+            layout_.flow_line = lineOf(reader, "line", *line, diagnostics_);
         for (const std::string& figure : rule.keys()) {
             if (!rule.property(figure).refersTo("bar")) continue;
             const JsonNode* bar = reader.get(figure);
@@ -173,15 +177,6 @@ class Reader {
             diagnostics_.error(flow->where, "a bar on `flow` needs the `line` that people are counted at",
                                R"(write beside it for example "line": [[0, -1], [0, 1]])");
         reader.finish();
-    }
-
-    /// A line of exactly two points; more are an error at `blamed`.
-    std::optional<Line> lineOf(ObjectReader& reader, const std::string& key, const JsonNode& blamed) {
-        const std::vector<glm::dvec2> points = reader.points(key);
-        if (points.size() == 2) return Line{points[0], points[1]};
-        if (points.size() > 2)
-            diagnostics_.error(blamed.where, fmt::format("`{}` is a line of two points", key));
-        return std::nullopt;
     }
 
     void readRoad(const JsonNode& node) {
@@ -324,406 +319,6 @@ class Reader {
                 "what lies between is solid all the same, but may not be what was meant");
     }
 
-    void readArrival(ObjectReader& reader, Arrival& arrival) {
-        reader.choice("arrival", {{"leave", Arrival::leave}, {"stay", Arrival::stay}}, arrival);
-    }
-
-    void readFlow(const JsonNode& node) {
-        Flow flow;
-        flow.where = node.where;
-        flow.end = layout_.simulation.duration;
-        ObjectReader reader(node, schema_.definition("flow"), "a flow", diagnostics_);
-        if (!reader.isObject()) return;
-        reader.requiredText("id", "its name in the account", flow.id);
-        flow.behaviour = behaviours_.behaviourOf(reader, node, {"via", "to", "board", "arrival"});
-        const bool behaves = node.find("behaviour") != nullptr || sits(node, "to");
-        if (sits(node, "to")) flow.behaviour = seatsFor(reader, node, "to", {"via", "arrival"}, flow.id);
-        const std::optional<Place> from_place = readBeginning(reader, node, flow);
-        const std::optional<Destination> destination = readEnd(reader, node, flow);
-        eachOf(reader, "via", [&](const JsonNode& item) {
-            if (auto stop = places_.stop(item)) flow.via.push_back(std::move(*stop));
-        });
-        readAmount(reader, node, flow);
-        reader.number("start", flow.start);
-        reader.number("end", flow.end);
-        if (flow.end <= flow.start)
-            diagnostics_.error(node.find("end") ? node.find("end")->where : node.where,
-                               fmt::format("the flow ends ({:.6g} s) {} it starts ({:.6g} s)", flow.end,
-                                           flow.end < flow.start ? "before" : "when", flow.start));
-        flow.people = readPeople(reader, diagnostics_);
-        readArrival(reader, flow.arrival);
-        reader.finish();
-        claimId(node, flow.id, groups_, layout_.flows.size(), "a flow or formation", diagnostics_);
-        if (!from_place || (!destination && !behaves)) return;
-        flow.from = *from_place;
-        if (destination) flow.to = *destination;
-        checkEnds(flow);
-        layout_.flows.push_back(std::move(flow));
-    }
-
-    /// Whether a goal is a seat.
-    static bool sits(const JsonNode& node, const char* key) {
-        const JsonNode* goal = node.find(key);
-        return goal && goal->kind == JsonNode::Kind::object && goal->find("seats");
-    }
-    std::optional<std::size_t> seatsFor(ObjectReader& reader, const JsonNode& node, const char* key,
-                                        const std::vector<std::string>& instead, const std::string& owner) {
-        refuseKeys(node, instead, "who goes to a seat stays there: `{}` has no meaning",
-                   "leave `{}` out, or write a behaviour", diagnostics_);
-        if (node.find("behaviour")) behaviours_.refuseBeside(node, {key});
-        if (node.find("board")) return std::nullopt;
-        return behaviours_.sittingIn(*reader.get(key), owner);
-    }
-
-    /// Where people come from: a place, or out of vehicles.
-    std::optional<Place> readBeginning(ObjectReader& reader, const JsonNode& node, Flow& flow) {
-        const JsonNode* alight = reader.get("alight");
-        const JsonNode* from = alight ? reader.get("from") : reader.require("from", "where people come from");
-        if (!alight) return from ? places_.place(*from) : std::nullopt;
-        boarding_.checkAlighting(node);
-        flow.alights = boarding_.atPlatform(*alight);
-        return flow.alights ? std::optional(boarding_.placeOf(*flow.alights)) : std::nullopt;
-    }
-
-    /// Where people go: a place, or into vehicles; nothing where a behaviour tells.
-    std::optional<Destination> readEnd(ObjectReader& reader, const JsonNode& node, Flow& flow) {
-        const JsonNode* board = reader.get("board");
-        if (sits(node, "to") && !board) return std::nullopt;
-        const bool told = board || node.find("behaviour") != nullptr;
-        const JsonNode* to = told ? reader.get("to") : reader.require("to", "where people go");
-        if (!board) return to ? places_.destination(*to) : std::nullopt;
-        refuseKeys(node, {"to", "arrival"}, "people who `board` go nowhere else: `{}` has no meaning",
-                   "leave `{}` out", diagnostics_);
-        flow.boards = boarding_.atPlatform(*board);
-        if (!flow.boards) return std::nullopt;
-        const Place platform = boarding_.placeOf(*flow.boards);
-        return Destination{Destination::Kind::one, {platform}, {}, platform.where};
-    }
-
-    void readAmount(ObjectReader& reader, const JsonNode& node, Flow& flow) {
-        const JsonNode* count = reader.get("count");
-        const JsonNode* rate = reader.get("rate");
-        const JsonNode* gaps = reader.get("gaps");
-        const JsonNode* times = reader.get("times");
-        std::vector<const char*> told;
-        for (const auto& [key, name] :
-             {std::pair{count, "`count`"}, {rate, "`rate`"}, {gaps, "`gaps`"}, {times, "`times`"}})
-            if (key) told.push_back(name);
-        if (told.size() != 1)
-            diagnostics_.error(
-                node.where,
-                fmt::format(
-                    "a flow needs exactly one of `count` (people in all), `rate` (people per second), "
-                    "`gaps` (seconds between them) and `times` (moments), this one has {}",
-                    told.empty() ? "none" : fmt::format("{}", fmt::join(told, " and "))));
-        std::uint64_t people = 0;
-        double per_second = 0.0;
-        reader.integer("count", people);
-        reader.number("rate", per_second);
-        if (count) flow.count = people;
-        if (rate) flow.rate = per_second;
-        if (gaps) flow.gaps = readDistribution(reader, "gaps", {}, diagnostics_);
-        if (gaps && flow.gaps->maximum <= 0.0)
-            diagnostics_.error(gaps->where, "`gaps` of 0 s: everybody would come at once",
-                               "for people who come together write a formation");
-        if (times)
-            refuseKeys(node, {"start", "end"}, "people come at their `times`: `{}` has no meaning",
-                       "leave `{}` out", diagnostics_);
-        if (times && times->items.empty())
-            diagnostics_.error(times->where, "expected one moment or more, in seconds",
-                               "for example [0, 2.5, 7]");
-        const Limits limits = reader.rule("times").item().limits();
-        eachOf(reader, "times", [&](const JsonNode& item) {
-            const auto time = numberOf(item, limits, diagnostics_);
-            if (time && *time < -layout_.simulation.warmup)
-                diagnostics_.error(item.where,
-                                   fmt::format("{:.6g} s is before everything begins, at {:.6g} s", *time,
-                                               0.0 - layout_.simulation.warmup),
-                                   "raise simulation.warmup");
-            if (time) flow.times.push_back(*time);
-        });
-        std::ranges::sort(flow.times);
-    }
-
-    void checkEnds(const Flow& flow) {
-        if (!flow.via.empty() || flow.boards) return;
-        for (const Place& to : flow.to.places) {
-            if (flow.from.kind == to.kind && flow.from.index == to.index)
-                diagnostics_.error(to.where, fmt::format("flow `{}` goes to where it comes from", flow.id));
-            else if (flow.from.kind == Place::Kind::road_end && to.kind == Place::Kind::road_start &&
-                     flow.from.index == to.index && layout_.roads[flow.from.index].one_way)
-                diagnostics_.error(flow.from.where,
-                                   fmt::format("flow `{}` walks against the one-way road `{}`", flow.id,
-                                               layout_.roads[flow.from.index].id),
-                                   "swap `from` and `to`, or drop the road's `one_way`");
-        }
-    }
-
-    /// What happens is one key; what else belongs to it depends on which.
-    void readEvent(const JsonNode& node) {
-        Event event;
-        event.where = node.where;
-        ObjectReader reader(node, schema_.definition("event"), "an event", diagnostics_);
-        if (!reader.isObject()) return;
-        reader.require("at", "when, in seconds");
-        reader.number("at", event.at);
-        const std::vector<std::string> kinds = {"open", "close", "go_to", "flow"};
-        const JsonNode* what = nullptr;
-        int found = 0;
-        for (std::size_t i = 0; i < kinds.size(); ++i) {
-            const JsonNode* key = reader.get(kinds[i]);
-            if (!key) continue;
-            ++found;
-            what = key;
-            event.kind = static_cast<Event::Kind>(i);
-        }
-        if (found != 1) {
-            diagnostics_.error(node.where,
-                               "an event needs exactly one of `open`, `close`, `go_to` and `flow`");
-            return;
-        }
-        if (event.kind == Event::Kind::go_to) readSending(reader, *what, event);
-        if (event.kind == Event::Kind::rate) {
-            reader.require("rate", "people per second from now on");
-            reader.number("rate", event.rate);
-        }
-        reader.finish();
-        if (event.kind != Event::Kind::go_to && !findSubject(*what, event)) return;
-        if (event.kind != Event::Kind::go_to || !event.then.to.places.empty())
-            layout_.events.push_back(std::move(event));
-    }
-
-    void readSending(ObjectReader& reader, const JsonNode& to, Event& event) {
-        Arrival arrival = Arrival::leave;
-        readArrival(reader, arrival);
-        if (auto destination = places_.destination(to)) event.then = goalState(*destination, arrival);
-        eachOf(reader, "who", [&](const JsonNode& item) {
-            if (item.kind == JsonNode::Kind::text && seats_.hasBlock(item.text))
-                diagnostics_.error(item.where,
-                                   fmt::format("`{}` is a block of seats: its people keep them", item.text),
-                                   "what they do is told under `shows`");
-            else if (item.kind == JsonNode::Kind::text && given_.has(item.text))
-                diagnostics_.error(item.where, fmt::format("`{}` are people whose ways are given", item.text),
-                                   "nothing sends them elsewhere");
-            else if (item.kind == JsonNode::Kind::text && groups_.count(item.text))
-                event.who.push_back(item.text);
-            else
-                diagnostics_.error(item.where, fmt::format("there is no flow or formation `{}`", item.text),
-                                   hintFor(item.text, namesOfSent()));
-        });
-    }
-
-    /// Whom an event can send somewhere.
-    std::vector<std::string> namesOfSent() const {
-        std::vector<std::string> names = namesOf(groups_);
-        std::erase_if(names,
-                      [&](const std::string& name) { return seats_.hasBlock(name) || given_.has(name); });
-        return names;
-    }
-
-    std::vector<std::string> namesOfFlows() const {
-        std::vector<std::string> names;
-        for (const Flow& flow : layout_.flows)
-            names.push_back(flow.id);
-        return names;
-    }
-
-    bool findSubject(const JsonNode& node, Event& event) {
-        const bool is_flow = event.kind == Event::Kind::rate;
-        const auto& ids = is_flow ? groups_ : walls_;
-        const auto found = ids.find(node.text);
-        if (node.kind != JsonNode::Kind::text || found == ids.end()) {
-            diagnostics_.error(node.where,
-                               fmt::format("there is no {} `{}`", is_flow ? "flow" : "wall", node.text),
-                               hintFor(node.text, is_flow ? namesOfFlows() : namesOf(ids)));
-            return false;
-        }
-        event.subject = found->second;
-        if (is_flow && (event.subject >= layout_.flows.size() ||
-                        layout_.flows[event.subject].id != node.text || !layout_.flows[event.subject].rate)) {
-            diagnostics_.error(node.where, fmt::format("`{}` is no flow with a `rate`", node.text),
-                               "only these can change");
-            return false;
-        }
-        return true;
-    }
-
-    /// Gates are open or closed at first, as their first event would have it.
-    void sortEvents() {
-        std::stable_sort(layout_.events.begin(), layout_.events.end(),
-                         [](const Event& a, const Event& b) { return a.at < b.at; });
-        for (const Event& event : layout_.events) {
-            if (event.kind != Event::Kind::open && event.kind != Event::Kind::close) continue;
-            Wall& wall = layout_.walls[event.subject];
-            if (wall.closed)
-                diagnostics_.error(event.where, fmt::format("wall `{}` is a solid, not a gate", wall.id),
-                                   "only walls without `closed` can open");
-            const bool opens = event.kind == Event::Kind::open;
-            if (wall.toggles.empty())
-                wall.open_at_start = !opens;
-            else if (wall.isOpen(wall.toggles.back()) == opens)
-                diagnostics_.error(
-                    event.where, fmt::format("wall `{}` already is {}", wall.id, opens ? "open" : "closed"));
-            wall.toggles.push_back(event.at);
-        }
-    }
-
-    enum class Shape { circle, grid, agents };
-
-    void readFormation(const JsonNode& node) {
-        Formation formation;
-        formation.where = node.where;
-        ObjectReader reader(node, schema_.definition("formation"), "a formation", diagnostics_);
-        if (!reader.isObject()) return;
-        reader.requiredText("id", "its name in the account", formation.id);
-        reader.require("type", "circle, grid or agents");
-        std::optional<Shape> type;
-        reader.choice("type", {{"circle", Shape::circle}, {"grid", Shape::grid}, {"agents", Shape::agents}},
-                      type);
-        formation.behaviour = behaviours_.behaviourOf(reader, node, {"goal", "wait", "arrival"});
-        const bool behaves = node.find("behaviour") != nullptr || sits(node, "goal");
-        if (sits(node, "goal") && type == Shape::grid)
-            formation.behaviour = seatsFor(reader, node, "goal", {"arrival"}, formation.id);
-        if (type == Shape::circle) formation.shape = readCircle(reader);
-        if (type == Shape::grid) formation.shape = readGrid(reader, behaves);
-        reader.number("start", formation.start);
-        if (type == Shape::agents) formation.shape = readList(reader, behaves, formation.start);
-        formation.wait = readDistribution(reader, "wait", formation.wait, diagnostics_);
-        formation.people = readPeople(reader, diagnostics_);
-        readArrival(reader, formation.arrival);
-        reader.number("goal_tolerance", formation.goal_tolerance);
-        formation.level = levels_.levelOf(reader);
-        if (type) reader.finish();
-        claimId(node, formation.id, groups_, std::string::npos, "a flow or formation", diagnostics_);
-        layout_.formations.push_back(std::move(formation));
-    }
-
-    CircleFormation readCircle(ObjectReader& reader) {
-        CircleFormation circle;
-        reader.point("centre", "the middle, [x, y] in metres", circle.centre);
-        reader.require("radius", "metres");
-        reader.number("radius", circle.radius);
-        reader.require("count", "people");
-        reader.integer("count", circle.count);
-        reader.number("ring_spacing", circle.ring_spacing);
-        reader.number("along", circle.along);
-        if ((circle.ring_spacing > 0.0) != (circle.along > 0.0))
-            diagnostics_.error(
-                reader.where(), "`ring_spacing` and `along` go together",
-                "the first is the distance between rings, the second between neighbours on a ring");
-        return circle;
-    }
-
-    /// Whether an object says in any of the ways that there are where a grid goes.
-    bool isGoal(const JsonNode& goal) {
-        const std::vector<std::string> ways = {"offset", "mirror", "anywhere", "nearest", "choose"};
-        if (std::ranges::any_of(ways, [&](const std::string& way) { return goal.find(way) != nullptr; }))
-            return true;
-        if (goal.members.empty())
-            diagnostics_.error(goal.where, fmt::format("`goal` needs one of {}", fmt::join(ways, ", ")),
-                               R"(for example {"offset": [10, 0]})");
-        for (const JsonNode::Member& member : goal.members)
-            diagnostics_.error(member.key_where, fmt::format("`goal` has no key `{}`", member.key),
-                               hintFor(member.key, ways));
-        return false;
-    }
-
-    /// @param behaves a behaviour says where its people go
-    GridFormation readGrid(ObjectReader& reader, bool behaves) {
-        GridFormation grid;
-        reader.point("origin", "the first person, [x, y] in metres", grid.origin);
-        reader.require("rows", "people along the grid's +Y");
-        reader.integer("rows", grid.rows);
-        reader.require("columns", "people along the grid's +X");
-        reader.integer("columns", grid.columns);
-        reader.number("spacing", grid.spacing);
-        reader.integer("count", grid.count);
-        if (grid.count > grid.rows * grid.columns)
-            diagnostics_.error(reader.where(), fmt::format("`count` ({}) is more than {} rows of {} hold",
-                                                           grid.count, grid.rows, grid.columns));
-        reader.number("jitter", grid.jitter);
-        reader.number("rotation", grid.rotation);
-        constexpr const char* kMeaning = "{\"offset\": [dx, dy]} or a place";
-        const JsonNode* goal = behaves ? reader.get("goal") : reader.require("goal", kMeaning);
-        if (!goal || behaves) return grid;
-        if (goal->kind != JsonNode::Kind::object || goal->find("nearest") || goal->find("choose")) {
-            if (auto destination = places_.destination(*goal)) grid.goal = std::move(*destination);
-            return grid;
-        }
-        if (!isGoal(*goal)) return grid;
-        ObjectReader inner(*goal, reader.rule("goal"), "`goal`", diagnostics_);
-        if (goal->find("mirror")) {
-            if (const auto line = lineOf(inner, "mirror", *goal)) grid.goal = *line;
-        } else if (const JsonNode* box = goal->find("anywhere")) {
-            const std::vector<glm::dvec2> corners = inner.points("anywhere");
-            if (corners.size() == 2)
-                grid.goal = Extent{corners[0], corners[1]};
-            else if (corners.size() > 2)
-                diagnostics_.error(box->where, "`anywhere` is a box: two opposite corners");
-        } else {
-            glm::dvec2 offset(0.0);
-            inner.point("offset", "added to everybody's position, [dx, dy] in metres", offset);
-            grid.goal = offset;
-        }
-        inner.finish();
-        return grid;
-    }
-
-    /// @param behaves a behaviour says where its people go
-    /// @param start s: of those who name none
-    ListFormation readList(ObjectReader& reader, bool behaves, double start) {
-        ListFormation list;
-        reader.require("agents", "an array of people");
-        const SchemaRule rule = reader.rule("agents").item();
-        eachOf(reader, "agents", [&](const JsonNode& node) {
-            ListedAgent agent;
-            agent.where = node.where;
-            ObjectReader inner(node, rule, "a person", diagnostics_);
-            if (!inner.isObject()) return;
-            inner.point("position", "[x, y] in metres", agent.position);
-            agent.goal = agent.position;
-            readGoal(inner, node, behaves, agent);
-            if (behaves) behaviours_.refuseBeside(node, {"goal", "via", "wait"});
-            readVia(inner, agent);
-            agent.start = start;
-            inner.number("start", agent.start);
-            inner.number("wait", agent.wait);
-            inner.number("speed", agent.speed);
-            inner.number("radius", agent.radius);
-            inner.number("heading", agent.heading);
-            inner.finish();
-            list.agents.push_back(agent);
-        });
-        // Rows of people come in one after the other.
-        std::ranges::stable_sort(list.agents, {}, &ListedAgent::start);
-        return list;
-    }
-
-    /// A point, or what flows may go to.
-    void readGoal(ObjectReader& reader, const JsonNode& node, bool behaves, ListedAgent& agent) {
-        const JsonNode* goal = node.find("goal");
-        if (goal && (goal->kind == JsonNode::Kind::text || goal->kind == JsonNode::Kind::object)) {
-            reader.get("goal");
-            agent.to = places_.destination(*goal);
-        } else if (goal || !behaves) {
-            reader.point("goal", "[x, y] in metres, or a place", agent.goal);
-        }
-    }
-
-    void readVia(ObjectReader& reader, ListedAgent& agent) {
-        const SchemaRule rule = reader.rule("via").item();
-        eachOf(reader, "via", [&](const JsonNode& node) {
-            Waypoint waypoint;
-            waypoint.where = node.where;
-            ObjectReader inner(node, rule, "a place on the way", diagnostics_);
-            if (!inner.isObject()) return;
-            inner.point("point", "[x, y] in metres", waypoint.point);
-            inner.number("wait", waypoint.wait);
-            inner.finish();
-            agent.via.push_back(waypoint);
-        });
-    }
-
     void checkWhole() {
         double people = 0.0;
         double largest = 0.0;
@@ -804,6 +399,9 @@ class Reader {
     BoardingReader boarding_{schema_, layout_, areas_, diagnostics_};
     TrafficReader traffic_{schema_, layout_, boarding_, diagnostics_};
     BehaviourReader behaviours_{schema_, layout_, places_, groups_, walls_, traffic_, diagnostics_};
+    FlowReader flows_{schema_, layout_, places_, behaviours_, boarding_, groups_, diagnostics_};
+    FormationReader formations_{schema_, layout_, places_, levels_, behaviours_, groups_, diagnostics_};
+    EventReader events_{schema_, layout_, places_, seats_, given_, groups_, walls_, diagnostics_};
 };
 
 }  // namespace
