@@ -59,7 +59,7 @@ double areaOf(const Draw& draw) {
 TEST(Marks, CoverAsMuchAsTheyAreLarge) {
     for (const float angle : {0.0f, 0.3f, 0.8f, 2.1f}) {
         const glm::vec2 way(std::cos(angle), std::sin(angle)), middle(31.3f, 30.8f);
-        for (const float width : {0.4f, 1.0f, 3.0f})
+        for (const float width : {1.0f, 3.0f})
             EXPECT_NEAR(areaOf([&](Marks& m) { m.line(middle - 10.0f * way, middle + 10.0f * way, width); }),
                         20.0 * width, 0.06 * 20.0 * width + 0.3)
                 << angle << " " << width;
