@@ -75,18 +75,52 @@ class Content {
     std::size_t at_ = 0;
 };
 
-std::optional<Checkpoint> loadOne(const fs::path& path) try {
-    const InputFile file(path);
-    Head head{};
-    if (file.size() < sizeof head) return std::nullopt;
-    file.readAt(0, std::as_writable_bytes(std::span(&head, 1)));
+template <class T>
+T readOne(const InputFile& file, std::uint64_t offset) {
+    T value{};
+    file.readAt(offset, std::as_writable_bytes(std::span(&value, 1)));
+    return value;
+}
+
+/// Nothing where it is none of a file of this length.
+std::optional<Head> headOf(const InputFile& file) {
+    if (file.size() < sizeof(Head)) return std::nullopt;
+    const auto head = readOne<Head>(file, 0);
     if (std::memcmp(head.magic, kMagic, sizeof kMagic) != 0 || head.bytes != file.size() - sizeof head)
         return std::nullopt;
-    std::vector<std::byte> bytes(head.bytes);
-    file.readAt(sizeof head, bytes);
+    return head;
+}
+
+/// How many frames a checkpoint goes on from, without reading gigabytes of it into memory; nothing where it
+/// is torn.
+std::optional<std::uint64_t> framesOf(const fs::path& path) try {
+    constexpr std::uint64_t kPiece = 1 << 20;
+    const InputFile file(path);
+    const std::optional<Head> head = headOf(file);
+    if (!head) return std::nullopt;
+    std::vector<std::byte> piece(kPiece);
+    Hasher hasher;
+    for (std::uint64_t at = 0; at < head->bytes; at += kPiece) {
+        const std::span<std::byte> next = std::span(piece).first(std::min(kPiece, head->bytes - at));
+        file.readAt(sizeof *head + at, next);
+        hasher.add(next);
+    }
+    if (hasher.digest() != head->xxh3) return std::nullopt;
+    const auto identity_bytes = readOne<std::uint64_t>(file, sizeof *head);
+    return readOne<std::uint64_t>(file, sizeof *head + sizeof identity_bytes + identity_bytes);
+} catch (const std::exception&) {
+    return std::nullopt;
+}
+
+std::optional<Checkpoint> loadOne(const fs::path& path) try {
+    const InputFile file(path);
+    const std::optional<Head> head = headOf(file);
+    if (!head) return std::nullopt;
+    std::vector<std::byte> bytes(head->bytes);
+    file.readAt(sizeof *head, bytes);
     Hasher hasher;
     hasher.add(bytes);
-    if (hasher.digest() != head.xxh3) return std::nullopt;
+    if (hasher.digest() != head->xxh3) return std::nullopt;
     Content content(std::move(bytes));
     Checkpoint checkpoint;
     checkpoint.identity = content.text();
@@ -110,9 +144,8 @@ const std::vector<std::byte>* Checkpoint::find(const std::string& name) const {
 }
 
 void saveCheckpoint(const fs::path& folder, const Checkpoint& checkpoint) {
-    const std::optional<Checkpoint> a = loadOne(folder / kNames[0]);
-    const std::optional<Checkpoint> b = loadOne(folder / kNames[1]);
-    const bool replace_a = !a || (b && b->frames > a->frames);
+    const std::optional<std::uint64_t> a = framesOf(folder / kNames[0]), b = framesOf(folder / kNames[1]);
+    const bool replace_a = !a || (b && *b > *a);
     const fs::path path = folder / kNames[replace_a ? 0 : 1];
 
     Head head{{}, 0, 0};

@@ -67,9 +67,37 @@ def total(passes):
             "for each person.\n")
 
 
+def is_of_people(buffer):
+    return buffer["per"] in ("person", "site")
+
+
+def kept(passes):
+    """Per buffer with an element for each person: its bytes, and the passes that touch it, in their order."""
+    found = {}
+    for entry in passes:
+        for row in entry["rows"]:
+            for buffer in filter(is_of_people, row["reads"] + row["writes"]):
+                size, touching = found.setdefault(buffer["buffer"], (buffer["element_bytes"], []))
+                if entry["pass"] not in touching:
+                    touching.append(entry["pass"])
+    return sorted(found.items(), key=lambda item: -item[1][0])
+
+
+def memory(passes):
+    buffers = kept(passes)
+    lines = ["| buffer | bytes a person | passes that touch it |", "| --- | ---: | --- |"]
+    lines += [f"| {name} | {size} | {', '.join(touching)} |" for name, (size, touching) in buffers]
+    together = sum(size for _, (size, _) in buffers)
+    return ("## What a person takes\n\nBuffers with an element for each person (where all are discs), "
+            f"{together} bytes together. Besides, a person has 48 bytes\nfor each stage of its way, 36 for each of the "
+            "three frames that are on their way to the disk, and its part of the\nground: 8 bytes a cell, 4 to 16 a "
+            "pixel of the diagram. `throng check` tells what a layout takes in all.\n\n"
+            + "\n".join(lines) + "\n")
+
+
 def page(document):
     passes = document["passes"]
-    return "\n".join([INTRO.format(people=document["people"]), total(passes), *map(section, passes)])
+    return "\n".join([INTRO.format(people=document["people"]), total(passes), memory(passes), *map(section, passes)])
 
 
 def main():
