@@ -25,6 +25,7 @@ PEOPLE = {"body": {"profile": "adult", "body": "adult"}, "disc": {"profile": "ad
 SPECIFIC_FLOW = 1.9  # persons/(s m): Seyfried et al. 2009, for 0.9 to 2.5 m
 NEAR_DOOR = 1.5  # m round the middle of a door, on the side where people wait
 HEAD = "| | found (mean) | worst seed | wanted | holds | deepest overlap, % | steps backwards, % |"
+RULE = "|" + " --- |" * (HEAD.count("|") - 1)
 
 
 class Case:
@@ -136,8 +137,8 @@ def cases(people):
     found["imo-4"] = Case("IMO 4, per s", scenario("imo-4", people), flow_of, None, 1.33)
     for name in ("050", "100", "200", "300"):
         found[f"rimea-4-{name}"] = Case(
-            f"{int(name) / 100:g} per m^2 in a corridor: speed over Weidmann's 1993", scenario(f"rimea-4-{name}", people),
-            share_of_weidmann, 0.8, 1.2)
+            f"{int(name) / 100:g} per m^2 in a corridor: speed over Weidmann's 1993",
+            scenario(f"rimea-4-{name}", people), share_of_weidmann, 0.8, 1.2)
     found["density"] = Case("at a door of 0.8 m, persons/m^2 within 1.5 m", found["kretz-080"].layout, crowd_before,
                             3.0, 6.0, 1)
     return found
@@ -176,8 +177,8 @@ def rows_of(found, program, seeds, settings, names):
         overlap = max(each["deepest_overlap_percent"] for each in told[name])
         back = max(each["backward_percent"] for each in told[name])
         digits = case.digits
-        yield f"| {case.title} | {mean:.{digits}f} | {worst:.{digits}f} | {case.wanted()} | {holds} | {overlap:.1f} | " \
-              f"{back:.2f} |"
+        found_and_wanted = f"{mean:.{digits}f} | {worst:.{digits}f} | {case.wanted()}"
+        yield f"| {case.title} | {found_and_wanted} | {holds} | {overlap:.1f} | {back:.2f} |"
 
 
 def main():
@@ -189,8 +190,9 @@ def main():
     parser.add_argument("--set", action="append", default=[], dest="settings", help="as of `throng bake`")
     options = parser.parse_args()
     for kind in options.people:
-        print(f"{'Bodies' if kind == 'body' else 'Discs'}, seeds {' '.join(map(str, options.seeds))}:\n\n{HEAD}")
-        print("|" + " --- |" * (HEAD.count("|") - 1), flush=True)
+        title = {"body": "Bodies", "disc": "Discs"}[kind]
+        print(f"{title}, seeds {' '.join(map(str, options.seeds))}:\n\n{HEAD}")
+        print(RULE, flush=True)
         for row in rows_of(cases(PEOPLE[kind]), options.program, options.seeds, options.settings, options.case):
             print(row, flush=True)
         print()

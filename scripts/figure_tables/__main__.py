@@ -10,6 +10,7 @@ import typing
 
 import benchmarks
 import blender
+import bodies
 import motion
 import pages
 from runs import ROOT, Runs
@@ -31,6 +32,7 @@ TABLES = {
     "headway": Table("motion-validation.md", 3, motion.headway),
     "steadiness": Table("motion-validation.md", 8, motion.steadiness),
     "doors": Table("motion-validation.md", 5, motion.doors),
+    "bodies": Table("motion-validation.md", 25, bodies.bodies),
     "ablations": Table("motion-notebook.md", 80, motion.ablations),
     "ablations-doors": Table("motion-notebook.md", 60, motion.ablations_doors),
     "diagrams": Table("benchmarks/llvmpipe/diagrams.md", 15, benchmarks.diagrams),
