@@ -65,7 +65,7 @@ def hall_before(width, people):
     blocks = [{"points": box(0, side * 5.1, 0.4, side * half), "closed": True} for side in (1, -1)]
     outline = [{"points": [[0, 5], [-12, 5], [-12, -5], [0, -5]], "thickness": 0.2}]
     return {
-        "throng": 1, "simulation": {"duration": 30 + 180 / (1.2 * width), "fps": 24, "substeps": 2},
+        "throng": 1, "simulation": {"duration": 15 + 180 / (1.6 * width), "fps": 24, "substeps": 2},
         "walls": outline + blocks, "areas": [{"id": "out", "polygon": box(5, -3, 7, 3)}],
         "formations": [{"id": "crowd", "type": "grid", "origin": [-9.4, -3.85], "rows": 15, "columns": 12,
                         "spacing": spacing, "jitter": 0.02, "goal": "out", "arrival": "leave", "people": people}],
@@ -78,7 +78,7 @@ def corridor_with_door(people):
     sides = [{"points": [[-21, side], [0, side]], "thickness": 0.1} for side in (0.95, -0.95)]
     ends = [{"points": [[0, side * 0.35], [0, side * 0.95]], "thickness": 0.0} for side in (1, -1)]
     return {
-        "throng": 1, "simulation": {"duration": 150, "fps": 24, "substeps": 2}, "walls": sides + ends,
+        "throng": 1, "simulation": {"duration": 140, "fps": 24, "substeps": 2}, "walls": sides + ends,
         "areas": [{"id": "in", "polygon": box(-20.6, -0.6, -18.6, 0.6)}, {"id": "out", "polygon": box(4, -2, 6, 2)}],
         "flows": [{"id": "walkers", "from": "in", "to": "out", "count": 148, "end": 55,
                    "people": {**people, "speed": speed}}],
@@ -123,7 +123,7 @@ def cases(people):
     found = {}
     for name, width in (("080", 0.8), ("100", 1.0), ("120", 1.2)):
         bar = json.loads((ROOT / "scenarios" / f"bottleneck-{name}.json").read_text())["expect"]["flow"]
-        layout = scenario(f"bottleneck-{name}", people, duration=100)
+        layout = scenario(f"bottleneck-{name}", people, duration=85)
         found[f"kretz-{name}"] = Case(f"door of {width} m, per s (Kretz and others 2006)", layout, flow_of,
                                       bar["min"], bar["max"])
     for width in (0.9, 1.2, 1.6, 2.0, 2.5):
@@ -134,7 +134,7 @@ def cases(people):
     layout = corridor_with_door(people)
     found["corridor"] = Case("corridor with a door of 0.7 m, per s", layout, flow_of, 1.2, 1.8)
     found["jam"] = Case("there: longest that nobody comes out, s", layout, longest_jam, None, 5.0, 1)
-    found["imo-4"] = Case("IMO 4, per s", scenario("imo-4", people), flow_of, None, 1.33)
+    found["imo-4"] = Case("IMO 4, per s", scenario("imo-4", people, duration=90), flow_of, None, 1.33)
     for name in ("050", "100", "200", "300"):
         found[f"rimea-4-{name}"] = Case(
             f"{int(name) / 100:g} per m^2 in a corridor: speed over Weidmann's 1993",
