@@ -24,7 +24,7 @@ SCHEMA = ROOT / "authoring" / "layout" / "throng-layout.schema.json"
 # What a layout has to have for a rule to have anything to do.
 NEEDS = {"company": '"groups"', "waiting_for_company": '"groups"', "headway": '"headway"', "kerb": '"roads"',
          "slope_pace": '"terrain"', "riding": '"walking"', "climbing": '"stairs"', "shoulders": '"body"',
-         "at_rest": '"wait"', "routes_round_jams": "", "contact_momentum": ""}
+         "room_to_stride": '"body"', "at_rest": '"wait"', "routes_round_jams": "", "contact_momentum": ""}
 
 # Beside one rule after the other: name for --only -> (what the table calls it, settings).
 TOGETHER = {

@@ -11,6 +11,7 @@ import typing
 import benchmarks
 import blender
 import jobs
+import bodies
 import motion
 import pages
 import storeys
@@ -35,6 +36,7 @@ TABLES = {
     "doors": Table("motion-validation.md", 5, motion.doors),
     "stairs": Table("motion-validation.md", 5, storeys.stairs),
     "building": Table("motion-validation.md", 4, storeys.building),
+    "bodies": Table("motion-validation.md", 25, bodies.bodies),
     "ablations": Table("motion-notebook.md", 80, motion.ablations),
     "ablations-doors": Table("motion-notebook.md", 60, motion.ablations_doors),
     "diagrams": Table("benchmarks/llvmpipe/diagrams.md", 15, benchmarks.diagrams),

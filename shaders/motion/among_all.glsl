@@ -4,17 +4,40 @@
 // shaders/motion/half_width.glsl.
 #include "shaders/motion/room.glsl"
 #include "shaders/motion/headway_in_peace.glsl"
+#include "shaders/motion/room_to_stride.glsl"
 
 uint neighbourKey(uint slot, uint nth) { return neighbours[nth * slot_capacity + slot]; }
 
+#ifdef BODIES
+/// Whether somebody has room to stride from those ahead: it has a body, and everybody sensed goes its way.
+bool strides(Walker walker, uint slot, vec2 way, float speed) {
+    bool peaceful = ROOM_TO_STRIDE_ENABLED && walker.half_axis != 0.0 && speed > STANDING_SPEED;
+    for (uint i = 0u; i < neighbour_counts[slot]; ++i) {
+        uint key = neighbourKey(slot, i);
+        if ((key & NEIGHBOUR_IS_WALL) == 0u)
+            peaceful = peaceful && isPeaceful(likeness(way, preferred_velocities[key]));
+    }
+    return peaceful;
+}
+#endif
+
 /// m/s: how fast one wants to walk behind those ahead.
-float paceAmongAll(Body self, uint slot, vec2 way, float speed, float headway) {
+/// @param strides whether with room to stride instead of with `headway`
+float paceAmongAll(Body self, uint slot, vec2 way, float speed, float headway, bool strides) {
     if (headway <= HEADWAY_LEAST) return speed;
     float pace = speed;
     for (uint i = 0u; i < neighbour_counts[slot]; ++i) {
         uint key = neighbourKey(slot, i);
         if ((key & NEIGHBOUR_IS_WALL) != 0u) continue;
         Body other = bodies[key];
+#ifdef BODIES
+        if (strides) {
+            vec2 extents = extentsAlong(way, self, slot, other, key);
+            pace = min(pace, paceStriding(way, speed, other.position - self.position, extents,
+                                          other.velocity - self.velocity, preferred_velocities[key]));
+            continue;
+        }
+#endif
         pace = min(pace, paceBehind(way, speed, headway, other.position - self.position,
                                     reachBetween(self, slot, other, key), preferred_velocities[key]));
     }

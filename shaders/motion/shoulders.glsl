@@ -15,10 +15,10 @@ float inertiaOf(float radius, float thickness) {
     return SHOULDERS_INERTIA * 0.5 * 0.5 * (radius * radius + thickness * thickness);
 }
 
-/// `axis`, as long as `start` and turned from it by no more than a chest turns in a step (and never by a quarter turn).
+/// `axis`, as long as `start` and turned from it by no more than a chest turns in a step (a quarter turn at most).
 /// Without angles, as this is asked in every round, and of every wall.
 vec2 withinATurn(vec2 axis, vec2 start) {
-    float most = min(SHOULDERS_FASTEST * parameters.step_seconds, 0.9 * QUARTER_TURN);
+    float most = min(SHOULDERS_FASTEST * parameters.step_seconds, QUARTER_TURN);
     float along = dot(start, axis), aside = crossOf(start, axis);
     if (along > 0.0 && abs(aside) * cos(most) <= along * sin(most))
         return axis * sqrt(dot(start, start) / dot(axis, axis));
