@@ -10,8 +10,8 @@ import typing
 
 import benchmarks
 import blender
-import jobs
 import bodies
+import jobs
 import motion
 import pages
 import storeys
