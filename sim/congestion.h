@@ -19,6 +19,8 @@ class Congestion {
     Congestion(const gl::ShaderLibrary& library, Buffers& buffers, const authoring::Scene& scene,
                const gpu::Parameters& parameters);
     void run();
+    /// How many fields are brought up to date at once.
+    std::uint32_t fieldsAtOnce() const { return fields_per_run_; }
     /// Some ground costs more for a time. @param now s, simulation time
     void chargeGround(double now);
 

@@ -169,7 +169,8 @@ FramePump::FramePump(Simulation& simulation, const Cargo& cargo, Receiver receiv
         slot.distances = gl::Buffer("diagram distances read-back", pixels * 4, gl::Buffer::Use::read_back);
     }
     state_->thread = std::thread([state = state_.get()] { state->receiveAll(); });
-    ::pthread_setname_np(state_->thread.native_handle(), "throng-frames");  // for those who watch what takes time
+    ::pthread_setname_np(state_->thread.native_handle(),
+                         "throng-frames");  // for those who watch what takes time
 }
 
 FramePump::~FramePump() {

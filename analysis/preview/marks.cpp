@@ -61,7 +61,7 @@ void Marks::paint(glm::vec2 lower, glm::vec2 upper, const Cover& cover) {
         for (int x = first.x; x < last.x; ++x) {
             const float covered =
                 cover(glm::vec2(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
-            const auto weight = static_cast<std::int32_t>(weight_ * covered + 0.5f);
+            const auto weight = static_cast<std::int32_t>(weight_ * covered);
             if (weight == 0) continue;
             const auto pixel = static_cast<std::int32_t>(row[x]);
             const auto mixed = [weight](std::int32_t before, std::int32_t mark) {

@@ -51,6 +51,7 @@ struct StartField {
                                             {"jitter", kJitter},
                                             {"count", count},
                                             {"goal", "finish"},
+                                            {"arrival", "leave"},
                                             {"people", {{"profile", {{"runner", 1}}}}}});
             if (wave > 0 && interval > 0.0)
                 layout["formations"].back()["wait"] = rounded(static_cast<double>(wave) * interval);

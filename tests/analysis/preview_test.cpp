@@ -61,7 +61,7 @@ TEST(Marks, CoverAsMuchAsTheyAreLarge) {
         const glm::vec2 way(std::cos(angle), std::sin(angle)), middle(31.3f, 30.8f);
         for (const float width : {1.0f, 3.0f})
             EXPECT_NEAR(areaOf([&](Marks& m) { m.line(middle - 10.0f * way, middle + 10.0f * way, width); }),
-                        20.0 * width, 0.06 * 20.0 * width + 0.3)
+                        20.0 * width, 0.08 * 20.0 * width + 0.3)
                 << angle << " " << width;
         EXPECT_NEAR(areaOf([&](Marks& m) { m.capsule(middle - 6.0f * way, middle + 6.0f * way, 4.0f); }),
                     12.0 * 8.0 + 16.0 * std::numbers::pi, 2.5);

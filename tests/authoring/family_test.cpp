@@ -266,6 +266,7 @@ TEST(Generators, EverybodyOfAMarathonStandsInTheFieldAndNobodyBesideAnother) {
         double wait = -1.0, front = 0.0;
         for (const Json& wave : layout["formations"]) {
             const std::vector<glm::dvec2> its_own = placesOf(wave);
+            EXPECT_EQ(wave["arrival"], "leave") << "or the finish fills up";
             EXPECT_GT(wave.value("wait", 0.0), wait) << "who stands further back sets off later";
             wait = wave.value("wait", 0.0);
             for (const glm::dvec2 place : its_own)

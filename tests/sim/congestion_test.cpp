@@ -73,6 +73,35 @@ TEST_F(CongestionTest, AnEmptyHallHasNoDetours) {
         ASSERT_LT(glm::length(slope), 1.0e-3f);
 }
 
+TEST_F(CongestionTest, VeryManyFieldsTakeTheirTurnsAndComeToTheSame) {
+    for (int i = 0; i < 36; ++i) {
+        const glm::vec2 place = scene_.minimum + glm::vec2(13.2f + 0.52f * static_cast<float>(i % 6),
+                                                           0.3f + 0.52f * static_cast<float>(i / 6));
+        addPerson(scene_, place, place);
+    }
+    const std::vector<glm::vec2> alone = slopesAfter(1000);
+    constexpr std::size_t kFields = 501;
+    const std::vector<float> one = scene_.detours.distances;
+    scene_.detours.ground_of_field.assign(kFields, 0);
+    for (std::size_t field = 1; field < kFields; ++field)
+        scene_.detours.distances.insert(scene_.detours.distances.end(), one.begin(), one.end());
+    sim::Simulation simulation(scene_, library);
+    const std::uint32_t at_once = simulation.parts().congestion.fieldsAtOnce();
+    EXPECT_LE(at_once * cost_.size(), std::size_t{128} * 1024)
+        << "what a step costs does not grow with the fields";
+    EXPECT_GE(at_once * cost_.size(), std::size_t{100} * 1024);
+    for (int step = 0; step < 2000; ++step)
+        simulation.step();
+    const auto slopes = simulation.parts().buffers.detour_slopes.download<glm::vec2>(kFields * cost_.size());
+    float largest = 0.0f, size = 0.0f;
+    for (std::size_t i = 0; i < slopes.size(); ++i) {
+        largest = std::max(largest, glm::length(slopes[i] - alone[i % cost_.size()]));
+        size = std::max(size, glm::length(slopes[i]));
+    }
+    EXPECT_GT(size, 0.1f) << "there is a jam";
+    EXPECT_LT(largest, 0.02f);
+}
+
 TEST_F(CongestionTest, DistancesThroughAStandingCrowdAreThoseOfThePlainSolution) {
     for (int i = 0; i < 36; ++i) {
         const glm::vec2 place = scene_.minimum + glm::vec2(13.2f + 0.52f * static_cast<float>(i % 6),
