@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <map>
 #include <optional>
@@ -141,26 +142,29 @@ class Follower::Eye {
         bodies_ = parts_.buffers.bodies.download<gpu::Body>(live);
         for (auto& [row, watched] : watched_)
             watched.slot.reset();
-        walkers_ = parts_.buffers.walkers.download<gpu::Walker>(live);
+        const auto walkers = parts_.buffers.walkers.download<gpu::Walker>(live);
         for (std::uint32_t slot = 0; slot < live; ++slot) {
             const auto found = watched_.find(bodies_[slot].row);
-            if (found == watched_.end() || (walkers_[slot].flags & gpu::WALKER_IS_IMAGE) != 0) continue;
+            if (found == watched_.end() || (walkers[slot].flags & gpu::WALKER_IS_IMAGE) != 0) continue;
             found->second.slot = slot;
             slots_ = slot + 1;
             present_[found->first] = &found->second;
-            found->second.now.place_before =
-                bodies_[slot].position;  // over a seam, where it has walked over one
+            found->second.now.place_before = bodies_[slot].position;  // beyond a seam, if it walked over one
             tellSenses(parts_, scene_, bodies_, slot, found->second.now);
         }
     }
 
-    /// m/s: of the ground that carries somebody (shaders/charts/belts.glsl).
+    /// m/s: of the ground that carries somebody until the next decision (shaders/charts/belts.glsl). A step
+    /// adds what that is in it, rounded as all that is added to places is among charts.
     glm::vec2 groundUnder(std::uint32_t slot) const {
         const std::vector<gpu::Belt>& belts = scene_.chart_map.belts;
         if (belts.empty()) return glm::vec2(0.0f);
-        const std::uint32_t flags = walkers_[slot].flags;
+        const std::uint32_t flags = parts_.buffers.walkers.download<gpu::Walker>(1, slot).front().flags;
         if ((flags & gpu::WALKER_IS_CARRIED) == 0) return glm::vec2(0.0f);
-        return belts[flags >> gpu::WALKER_CHART_AT & gpu::NO_CHART].velocity;
+        constexpr float kFinest = 65536.0f;  // of a metre (shaders/shared/snap.glsl)
+        const float seconds = parts_.parameters.step_seconds;
+        const glm::vec2 way = belts[flags >> gpu::WALKER_CHART_AT & gpu::NO_CHART].velocity * seconds;
+        return glm::round(way * kFinest) / kFinest / seconds;
     }
 
     glm::vec2 velocityTo(const Watched& watched, glm::vec2 target) const {
@@ -171,6 +175,7 @@ class Follower::Eye {
         const std::vector<Climb> wishes = ladders_.wishes(slots_);
         const std::vector<ClimbToDecide> decided = ladders_.decided(slots_);
         for (auto& [row, watched] : present_) {
+            watched->ground = groundUnder(*watched->slot);
             tellWish(*watched, wishes);
             FollowedStep& now = watched->now;
             now.free_ahead = freeAhead(now);
@@ -257,10 +262,9 @@ class Follower::Eye {
     const authoring::Scene& scene_;
     std::vector<std::uint32_t> rows_;
     Ladders ladders_;
-    std::vector<gpu::Body> bodies_;     // of all slots, as of the last decision
-    std::vector<gpu::Walker> walkers_;  // likewise
-    std::uint32_t slots_ = 0;           // up to the last one that is followed
-    std::size_t left_ = 0;              // people who are no more
+    std::vector<gpu::Body> bodies_;  // of all slots, as of the last decision
+    std::uint32_t slots_ = 0;        // up to the last one that is followed
+    std::size_t left_ = 0;           // people who are no more
     std::map<std::uint32_t, Watched> watched_;
     std::map<std::uint32_t, Watched*> present_;  // in this step
 };

@@ -185,3 +185,7 @@ def test_people_are_followed_from_storey_to_storey(throng, tmp_path, manifest_of
     influences = [line for line in lines(tmp_path / "why" / "follow.csv") if line["changed"] == "velocity"]
     assert len(influences) > 100
     assert max(abs(float(line[key])) for line in influences for key in ("after_x", "after_y")) < 3  # m/s
+    # On the escalator velocities are relative to it: it adds to nobody's, and nothing takes that away again.
+    told_of = {(line["rule"], line["row"]) for line in influences
+               if abs(float(line["after_x"]) - float(line["before_x"])) > 0.2}
+    assert ("maximum_speed", str(rows["ride"])) not in told_of
