@@ -159,7 +159,8 @@ class SceneAssembly {
     void standOnTerrain(const Charts& charts) {
         PlaneGround ground = planeGroundOf(charts, scene_.chart_map, scene_.origin);
         try {
-            scene_.terrain = std::make_shared<const Terrain>(*terrain_mesh_, std::move(ground), scene_.origin,
+            const TerrainMesh& mesh = charts.grounds->walked ? *charts.grounds->walked : *terrain_mesh_;
+            scene_.terrain = std::make_shared<const Terrain>(mesh, std::move(ground), scene_.origin,
                                                              scene_.minimum, scene_.maximum);
             scene_.chart_map.cell_costs =
                 slopeCosts(*scene_.terrain, scene_.chart_map, layout_.simulation.motion);

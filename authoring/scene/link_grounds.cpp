@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "authoring/scene/link_grounds.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <map>
+
+#include "authoring/link_kinds.h"
+#include "authoring/storeys/chart_raster.h"
+#include "base/polygon.h"
+
+namespace throng::authoring {
+namespace {
+
+constexpr double kOnSlope = 0.21;  // m: treads are so far from the slope of their stairs at the most
+constexpr double kOnFloor = 0.01;  // m
+constexpr double kBesideIt = 0.05;  // m: an edge along the side of a link
+constexpr double kOverIt = 0.3;     // m: an edge that is so far over a link is that of an opening
+constexpr double kShareOfWidth = 0.6;
+
+/// The spots of the lattice on a link's part.
+std::vector<std::uint32_t> spotsOn(const Walkable& ground, const Chart& part) {
+    const double off = part.is_link && !part.is_cabin ? kOnSlope : kOnFloor;
+    const auto [lower, upper] = part.bounds();
+    const glm::ivec2 first = chartCellOf(lower), last = chartCellOf(upper);
+    std::vector<std::uint32_t> spots;
+    for (int y = first.y; y <= last.y; ++y)
+        for (int x = first.x; x <= last.x; ++x) {
+            const glm::dvec2 middle = chartCellMiddle({x, y});
+            if (!part.is_link ? !isWithin(part.floor, middle) : !part.contains(middle)) continue;
+            const double height = part.heightAt(middle);
+            const std::uint32_t spot = ground.nearestSpot({x, y}, height);
+            if (spot != kNoSpot && std::abs(double{ground.spots()[spot].height} - height) < off)
+                spots.push_back(spot);
+        }
+    return spots;
+}
+
+double distanceTo(const Chart& part, glm::dvec2 place) {
+    const std::vector<glm::dvec2> outline = part.is_link ? part.link.outline(0.0, part.link.length) : part.floor;
+    return distanceToPieces(outline, outline.size(), place);
+}
+
+/// How many cells of a link's end lead on to each chart.
+struct Onward {
+    std::map<std::size_t, int> charts;
+    int count = 0;
+};
+
+Onward onwardFrom(const std::vector<Chart>& charts, std::size_t link, bool at_end) {
+    const Chart& chart = charts[link];
+    const Surface& surface = *chart.surface;
+    Onward onward;
+    for (const std::uint32_t spot : surface.spots) {
+        if (spot == kNoSpot) continue;
+        const glm::ivec2 cell = surface.ground->spots()[spot].cell;
+        for (std::size_t side = 0; side < kSides.size(); ++side) {
+            const double along = chart.link.alongOf(chartCellMiddle(cell + kSides[side]));
+            if (at_end ? along <= chart.link.length : along >= 0.0) continue;
+            const std::uint32_t next = surface.ground->spots()[spot].next[side];
+            if (next == kNoSpot) continue;
+            for (std::size_t other = 0; other < charts.size(); ++other)
+                if (other != link && charts[other].surface->spotAt(cell + kSides[side]) == next) {
+                    ++onward.charts[other];
+                    ++onward.count;
+                }
+        }
+    }
+    return onward;
+}
+
+/// The same, if nothing were in the way.
+int cellsAcross(const Chart& link, bool at_end) {
+    int count = 0;
+    const auto [lower, upper] = link.bounds();
+    const glm::ivec2 first = chartCellOf(lower), last = chartCellOf(upper);
+    const double wide = link.is_cabin ? link.half_door : link.link.half_width;
+    for (int y = first.y; y <= last.y; ++y)
+        for (int x = first.x; x <= last.x; ++x)
+            for (const glm::ivec2 side : kSides) {
+                const glm::dvec2 middle = chartCellMiddle({x, y});
+                const double along = link.link.alongOf(middle),
+                             beyond = link.link.alongOf(chartCellMiddle(glm::ivec2(x, y) + side));
+                if (along >= 0.0 && along <= link.link.length && std::abs(link.link.asideOf(middle)) <= wide &&
+                    (at_end ? beyond > link.link.length : beyond < 0.0))
+                    ++count;
+            }
+    return count;
+}
+
+void joinEnd(const Layout& layout, std::size_t link, bool at_end, std::vector<Chart>& charts,
+             Diagnostics& diagnostics) {
+    Chart& chart = charts[link];
+    const Link& given = layout.links[chart.index];
+    const std::size_t level = chart.is_cabin ? given.lift.levels[chart.stop] : at_end ? given.to : given.from;
+    const glm::dvec2 at = chart.link.at(at_end ? chart.link.length : 0.0, 0.0);
+    const Onward onward = onwardFrom(charts, link, at_end);
+    const double share = static_cast<double>(onward.count) / std::max(cellsAcross(chart, at_end), 1);
+    if (onward.count == 0) {
+        const std::string what =
+            chart.is_cabin ? fmt::format("the doors of lift `{}` open onto a wall or an edge", given.id)
+                           : fmt::format("link `{}` ends at a wall or an edge", given.id);
+        diagnostics.error(given.where,
+                          fmt::format("{}: nobody gets from it to level `{}` at [{:.2f}, {:.2f}]", what,
+                                      layout.levels[level].id, at.x, at.y),
+                          "people step up or down 0.25 m at most, and need 2 m over their heads");
+        return;
+    }
+    const auto most = std::ranges::max_element(onward.charts, {}, [](const auto& each) { return each.second; });
+    (at_end ? chart.link_to : chart.link_from) = most->first;
+    if (share < kShareOfWidth && !chart.is_cabin)
+        diagnostics.warning(
+            given.where,
+            fmt::format("link `{}` meets level `{}` with {:.0f} % of its width, at [{:.2f}, {:.2f}]", given.id,
+                        layout.levels[level].id, 100.0 * share, at.x, at.y),
+            "move its end to where the ground is as wide");
+}
+
+/// Layouts' walls may not stand before an end.
+void tellOfWallsBefore(const Layout& layout, const Chart& chart, Diagnostics& diagnostics) {
+    constexpr double kFree = 0.8;  // m
+    const Link& link = layout.links[chart.index];
+    const double half = chart.is_cabin ? chart.half_door : 0.5 * link.width;
+    const auto stands_before = [&](const Wall& wall, double from, double to) {
+        const std::size_t pieces = wall.points.size() - (wall.closed ? 0 : 1);
+        for (int i = 0; i <= 8; ++i) {
+            const glm::dvec2 place = chart.link.at(0.5 * (from + to), half * (0.25 * i - 1.0));
+            if (distanceToPieces(wall.points, pieces, place) < 0.5 * std::abs(to - from)) return true;
+        }
+        return false;
+    };
+    for (const Wall& wall : layout.walls) {
+        if (!wall.toggles.empty()) continue;
+        const auto tell = [&](std::size_t level, double from, double to) {
+            if (wall.level != level || layout.levels[level].is_landing || !stands_before(wall, from, to)) return;
+            diagnostics.error(link.where,
+                              fmt::format("{} `{}` {} wall `{}` at level `{}`",
+                                          chart.is_cabin ? "the doors of lift" : "link", link.id,
+                                          chart.is_cabin ? "open into" : "ends in", wall.id,
+                                          layout.levels[level].id),
+                              fmt::format("leave {:.1f} m before it free", kFree));
+        };
+        tell(chart.is_cabin ? link.lift.levels[chart.stop] : link.from, -kFree, 0.0);
+        if (!chart.is_cabin) tell(link.to, chart.link.length, chart.link.length + kFree);
+    }
+}
+
+}  // namespace
+
+LinkGrounds::LinkGrounds(const std::shared_ptr<const Walkable>& ground, const BuiltLinks& built)
+    : built_(built) {
+    for (std::size_t part = 0; part < built.parts.size(); ++part) {
+        taken_.resize(ground->spots().size(), false);
+        const std::vector<std::uint32_t> spots = spotsOn(*ground, built.parts[part].chart);
+        if (spots.empty()) continue;
+        for (const std::uint32_t spot : spots)
+            taken_[spot] = true;
+        surfaces_.push_back(surfaceOf(ground, spots));
+        parts_.push_back(part);
+    }
+}
+
+void LinkGrounds::addCharts(std::vector<Chart>& charts) const {
+    for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+        charts.push_back(built_.parts[parts_[i]].chart);
+        charts.back().surface = std::make_shared<const Surface>(surfaces_[i]);
+        charts.back().openings.clear();
+    }
+}
+
+LinkGrounds::Side LinkGrounds::sideOf(const SurfaceEdge& edge, glm::dvec2 place,
+                                      std::size_t first_link) const {
+    if (edge.surface >= first_link) {
+        const BuiltLink& own = built_.parts[parts_[edge.surface - first_link]];
+        const bool has_railing = std::ranges::any_of(own.railings, [&](const Railing& railing) {
+            return distanceToPieces(railing.points, 1, place) < kBesideIt;
+        });
+        return has_railing ? Side::railing : Side::ground;
+    }
+    for (const BuiltLink& part : built_.parts) {
+        if (distanceTo(part.chart, place) > kBesideIt) continue;
+        const double over = edge.high - part.chart.heightAt(place);
+        // Round a cabin there are its own sides, where it stops.
+        if (part.chart.is_cabin ? part.chart.stop == 0 && over > kOverIt : over > kOverIt) {
+            const bool has_stop = std::ranges::any_of(built_.parts, [&](const BuiltLink& stop) {
+                return stop.chart.is_cabin && stop.chart.index == part.chart.index && part.chart.is_cabin &&
+                       std::abs(stop.chart.link.low - edge.high) < kOverIt;
+            });
+            return has_stop ? Side::ground : Side::opening;
+        }
+    }
+    return Side::ground;
+}
+
+std::vector<SurfaceEdge> LinkGrounds::sorted(const std::vector<SurfaceEdge>& edges,
+                                             std::size_t first_link) const {
+    if (surfaces_.empty()) return edges;
+    std::vector<SurfaceEdge> kept;
+    for (const SurfaceEdge& edge : edges) {
+        Side last = Side::railing;
+        for (std::size_t i = 0; i + 1 < edge.points.size(); ++i) {
+            const Side side = sideOf(edge, 0.5 * (edge.points[i] + edge.points[i + 1]), first_link);
+            if (side != Side::railing && side == last)
+                kept.back().points.push_back(edge.points[i + 1]);
+            else if (side != Side::railing)
+                kept.push_back({edge.surface,
+                                {edge.points[i], edge.points[i + 1]},
+                                edge.low,
+                                edge.high,
+                                side == Side::opening});
+            last = side;
+        }
+    }
+    return kept;
+}
+
+void joinLinks(const Layout& layout, std::size_t first_link, std::vector<Chart>& charts,
+               Diagnostics& diagnostics) {
+    for (std::size_t i = first_link; i < charts.size(); ++i) {
+        if (!charts[i].is_link) continue;
+        joinEnd(layout, i, false, charts, diagnostics);
+        if (!charts[i].is_cabin) joinEnd(layout, i, true, charts, diagnostics);
+        tellOfWallsBefore(layout, charts[i], diagnostics);
+    }
+}
+
+void tellOfWalls(const BuiltLinks& built, const Layout& layout, Diagnostics& diagnostics) {
+    for (const WallInTheWay& wall : built.walls) {
+        const Link& link = layout.links[wall.link];
+        diagnostics.error(link.where,
+                          fmt::format("{} `{}` is in a wall of the terrain at [{:.2f}, {:.2f}, {:.2f}]",
+                                      link.isLift() ? "lift" : "link", link.id, wall.at.x, wall.at.y, wall.at.z),
+                          "move it, or leave room for it in the terrain");
+    }
+}
+
+std::vector<PlacedRailing> railingsOf(const LinkGrounds& links, const BuiltLinks& built, const Layout& layout,
+                                      std::size_t first_link) {
+    std::vector<PlacedRailing> placed;
+    for (std::size_t i = 0; i < links.parts().size(); ++i) {
+        const BuiltLink& part = built.parts[links.parts()[i]];
+        for (std::size_t count = 0; count < part.railings.size(); ++count) {
+            const Railing& railing = part.railings[count];
+            PlacedRailing one;
+            one.chart = first_link + i;
+            one.wall.id = fmt::format("railing:{}:{}", part.chart.name, count);
+            one.wall.points = railing.points;
+            one.wall.thickness = kRailing;
+            one.wall.height = railingHeight(part.chart);
+            one.wall.where =
+                part.chart.is_link ? layout.links[part.chart.index].where : layout.levels[part.chart.index].where;
+            one.wall.level = one.chart;
+            one.ground = {railing.low, railing.high};
+            placed.push_back(std::move(one));
+        }
+    }
+    return placed;
+}
+
+}  // namespace throng::authoring
