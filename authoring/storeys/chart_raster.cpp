@@ -133,4 +133,24 @@ void ChartRaster::castImages(double reach) {
             }
 }
 
+void ChartRaster::keepToOwnGround(const std::vector<ChartRaster>& rasters) {
+    most_images_ = 0;
+    for (std::size_t i = 0; i < images_.size(); ++i) {
+        if (images_[i] == gpu::NO_IMAGES) continue;
+        const auto x = static_cast<int>(i) % size_.x, y = static_cast<int>(i) / size_.x;
+        const glm::ivec2 cell = first_ + glm::ivec2(x, y);
+        std::uint32_t kept = gpu::NO_IMAGES, count = 0;
+        for (std::uint32_t place = 0; place < gpu::MOST_IMAGES; ++place) {
+            const std::uint32_t there = images_[i] >> (8 * place) & gpu::NO_CHART;
+            if (there == gpu::NO_CHART) break;
+            const std::uint32_t shown = rasters[there].ownerAt(cell);
+            if (shown != gpu::NO_CHART && owners_[i] != gpu::NO_CHART && shown != owners_[i]) continue;
+            kept &= ~(gpu::NO_CHART << (8 * count));
+            kept |= there << (8 * count++);
+        }
+        images_[i] = kept;
+        most_images_ = std::max(most_images_, count);
+    }
+}
+
 }  // namespace throng::authoring

@@ -30,6 +30,10 @@ class ChartRaster {
     std::uint32_t ownerOf(glm::dvec2 home) const;
     /// On which other charts somebody in a cell is present, too; each a byte, gpu::NO_CHART after the last.
     std::uint32_t imagesAt(glm::ivec2 cell) const;
+    /// Leaves out images that would be above or below others: where a chart shows other ground than that on
+    /// which somebody stands.
+    /// @param rasters of all charts
+    void keepToOwnGround(const std::vector<ChartRaster>& rasters);
     /// The most of these anywhere.
     std::uint32_t mostImages() const { return most_images_; }
     /// Whether there is any seam to another chart.

@@ -67,7 +67,11 @@ std::optional<Split> splitBy(const Piece& piece, const UprightSolid& solid) {
     Split split{piece, {}};
     for (const std::vector<HalfSpace>* halves : {&solid.sides, &solid.ends})
         for (const HalfSpace& half : *halves) {
-            Piece beyond = partOf(split.within, half, false);
+            // A face in the plane of a side belongs to the solid.
+            const bool goes_beyond = std::ranges::any_of(split.within, [&](const CornerPoint& corner) {
+                return half.beyond(corner.at) > kHairOff;
+            });
+            Piece beyond = goes_beyond ? partOf(split.within, half, false) : Piece();
             split.within = partOf(split.within, half, true);
             if (split.within.size() < 3 || areaOf(split.within) < kLeastArea) return std::nullopt;
             if (beyond.size() >= 3 && areaOf(beyond) >= kLeastArea) split.left.push_back(std::move(beyond));

@@ -135,9 +135,11 @@ Layout moved(const Layout& layout, const std::vector<Chart>& charts, const Given
 
 void layInPlane(Charts& charts) {
     shiftCharts(charts.charts, charts.reach);
-    for (std::size_t i = 0; i < charts.charts.size(); ++i) {
+    for (std::size_t i = 0; i < charts.charts.size(); ++i)
         charts.rasters.emplace_back(charts.charts, i, charts.reach);
-        charts.most_images = std::max(charts.most_images, charts.rasters[i].mostImages());
+    for (ChartRaster& raster : charts.rasters) {
+        raster.keepToOwnGround(charts.rasters);
+        charts.most_images = std::max(charts.most_images, raster.mostImages());
     }
 }
 
