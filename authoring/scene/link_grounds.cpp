@@ -20,6 +20,7 @@ constexpr double kOnSlope = 0.21;  // m: treads are so far from the slope of the
 constexpr double kOnFloor = 0.01;  // m
 constexpr double kBesideIt = 0.05;  // m: an edge along the side of a link
 constexpr double kOverIt = 0.3;     // m: an edge that is so far over a link is that of an opening
+constexpr double kToCorner = 0.2;   // m: where edges end with the side of a link
 constexpr double kShareOfWidth = 0.6;
 
 /// The spots of the lattice on a link's part.
@@ -40,8 +41,12 @@ std::vector<std::uint32_t> spotsOn(const Walkable& ground, const Chart& part) {
     return spots;
 }
 
+std::vector<glm::dvec2> outlineOf(const Chart& part) {
+    return part.is_link ? part.link.outline(0.0, part.link.length) : part.floor;
+}
+
 double distanceTo(const Chart& part, glm::dvec2 place) {
-    const std::vector<glm::dvec2> outline = part.is_link ? part.link.outline(0.0, part.link.length) : part.floor;
+    const std::vector<glm::dvec2> outline = outlineOf(part);
     return distanceToPieces(outline, outline.size(), place);
 }
 
@@ -172,49 +177,64 @@ void LinkGrounds::addCharts(std::vector<Chart>& charts) const {
     }
 }
 
-LinkGrounds::Side LinkGrounds::sideOf(const SurfaceEdge& edge, glm::dvec2 place,
-                                      std::size_t first_link) const {
-    if (edge.surface >= first_link) {
-        const BuiltLink& own = built_.parts[parts_[edge.surface - first_link]];
-        const bool has_railing = std::ranges::any_of(own.railings, [&](const Railing& railing) {
-            return distanceToPieces(railing.points, 1, place) < kBesideIt;
-        });
-        return has_railing ? Side::railing : Side::ground;
-    }
+bool LinkGrounds::hasRailing(std::size_t surface, glm::dvec2 place) const {
+    return std::ranges::any_of(built_.parts[parts_[surface]].railings, [&](const Railing& railing) {
+        return distanceToPieces(railing.points, 1, place) < kBesideIt;
+    });
+}
+
+/// The part of a link on whose outline a piece of an edge lies.
+const BuiltLink* LinkGrounds::partAlong(const SurfaceEdge& edge, glm::dvec2 a, glm::dvec2 b) const {
+    const glm::dvec2 middle = 0.5 * (a + b);
     for (const BuiltLink& part : built_.parts) {
-        if (distanceTo(part.chart, place) > kBesideIt) continue;
-        const double over = edge.high - part.chart.heightAt(place);
-        // Round a cabin there are its own sides, where it stops.
-        if (part.chart.is_cabin ? part.chart.stop == 0 && over > kOverIt : over > kOverIt) {
-            const bool has_stop = std::ranges::any_of(built_.parts, [&](const BuiltLink& stop) {
-                return stop.chart.is_cabin && stop.chart.index == part.chart.index && part.chart.is_cabin &&
-                       std::abs(stop.chart.link.low - edge.high) < kOverIt;
-            });
-            return has_stop ? Side::ground : Side::opening;
-        }
+        const double over = edge.high - part.chart.heightAt(middle);
+        const bool is_near = over > -kHeadroom && (!part.chart.is_cabin || part.chart.stop == 0 || over < kOverIt);
+        if (is_near && distanceTo(part.chart, middle) < kBesideIt) return &part;
     }
-    return Side::ground;
+    return nullptr;
+}
+
+/// Round a cabin there are its own sides, where it stops.
+SurfaceEdge::Beside LinkGrounds::besideWhat(const SurfaceEdge& edge, const BuiltLink& part,
+                                            glm::dvec2 place) const {
+    using enum SurfaceEdge::Beside;
+    if (edge.high - part.chart.heightAt(place) < kOverIt) return railing;
+    const bool stops = part.chart.is_cabin && std::ranges::any_of(built_.parts, [&](const BuiltLink& stop) {
+        return stop.chart.is_cabin && stop.chart.index == part.chart.index &&
+               std::abs(stop.chart.link.low - edge.high) < kOverIt;
+    });
+    return stops ? railing : opening;
+}
+
+void LinkGrounds::addPiece(const SurfaceEdge& edge, glm::dvec2 a, glm::dvec2 b,
+                           std::vector<SurfaceEdge>& kept) const {
+    using enum SurfaceEdge::Beside;
+    const BuiltLink* part = partAlong(edge, a, b);
+    const SurfaceEdge::Beside beside = part ? besideWhat(edge, *part, 0.5 * (a + b)) : nothing;
+    // Ground is known in cells, and railings end where they end.
+    if (part)
+        for (glm::dvec2* end : {&a, &b})
+            for (const glm::dvec2 corner : outlineOf(part->chart))
+                if (glm::distance(*end, corner) < kToCorner) *end = corner;
+    if (!kept.empty() && kept.back().surface == edge.surface && kept.back().beside == beside &&
+        kept.back().points.back() == a && kept.back().low == edge.low)
+        kept.back().points.push_back(b);
+    else if (glm::distance(a, b) > 1.0e-3)
+        kept.push_back({edge.surface, {a, b}, edge.low, edge.high, beside});
 }
 
 std::vector<SurfaceEdge> LinkGrounds::sorted(const std::vector<SurfaceEdge>& edges,
                                              std::size_t first_link) const {
     if (surfaces_.empty()) return edges;
     std::vector<SurfaceEdge> kept;
-    for (const SurfaceEdge& edge : edges) {
-        Side last = Side::railing;
+    for (const SurfaceEdge& edge : edges)
         for (std::size_t i = 0; i + 1 < edge.points.size(); ++i) {
-            const Side side = sideOf(edge, 0.5 * (edge.points[i] + edge.points[i + 1]), first_link);
-            if (side != Side::railing && side == last)
-                kept.back().points.push_back(edge.points[i + 1]);
-            else if (side != Side::railing)
-                kept.push_back({edge.surface,
-                                {edge.points[i], edge.points[i + 1]},
-                                edge.low,
-                                edge.high,
-                                side == Side::opening});
-            last = side;
+            const glm::dvec2 a = edge.points[i], b = edge.points[i + 1];
+            if (edge.surface < first_link)
+                addPiece(edge, a, b, kept);
+            else if (!hasRailing(edge.surface - first_link, 0.5 * (a + b)))
+                kept.push_back({edge.surface, {a, b}, edge.low, edge.high});
         }
-    }
     return kept;
 }
 

@@ -27,8 +27,10 @@ class LinkGrounds {
     std::vector<SurfaceEdge> sorted(const std::vector<SurfaceEdge>& edges, std::size_t first_link) const;
 
   private:
-    enum class Side { railing, opening, ground };
-    Side sideOf(const SurfaceEdge& edge, glm::dvec2 place, std::size_t first_link) const;
+    const BuiltLink* partAlong(const SurfaceEdge& edge, glm::dvec2 a, glm::dvec2 b) const;
+    bool hasRailing(std::size_t surface, glm::dvec2 place) const;
+    SurfaceEdge::Beside besideWhat(const SurfaceEdge& edge, const BuiltLink& part, glm::dvec2 place) const;
+    void addPiece(const SurfaceEdge& edge, glm::dvec2 a, glm::dvec2 b, std::vector<SurfaceEdge>& kept) const;
 
     const BuiltLinks& built_;
     std::vector<bool> taken_;

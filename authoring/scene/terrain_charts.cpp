@@ -10,6 +10,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "authoring/link_kinds.h"
 #include "authoring/scene/link_ends.h"
 #include "authoring/scene/link_grounds.h"
 #include "authoring/scene/rebase.h"
@@ -30,7 +31,6 @@ constexpr double kStoreysApart = 2.0;           // m
 constexpr double kMostLooks = 400'000.0;        // at the mesh, for storeys
 constexpr double kEdgeHeight = 1.1;             // m: people see over the ends of ground
 constexpr double kEdge = 0.02;                  // m
-constexpr double kOpeningRailing = 0.06;        // m: round an opening, within the railing of the link in it
 constexpr double kUnreachedWorthTelling = 4.0;  // m^2 of ground that nobody gets to
 constexpr std::size_t kMostTold = 10;
 constexpr double kAlong = 0.25;  // m between looks at what a line lies on
@@ -443,13 +443,14 @@ class TerrainLayingOut {
         result_->plane = moved(placed, result_->charts, result_->given);
         for (const SurfaceEdge& edge : edges) {
             Wall wall;
-            wall.id = fmt::format("{}:{}:{}", edge.is_opening ? "railing" : "edge",
+            const bool is_opening = edge.beside == SurfaceEdge::Beside::opening;
+            wall.id = fmt::format("{}:{}:{}", is_opening ? "railing" : "edge",
                                   result_->charts[edge.surface].name, count++);
             wall.points = edge.points;
-            wall.thickness = edge.is_opening ? kOpeningRailing : kEdge;
+            wall.thickness = edge.beside == SurfaceEdge::Beside::nothing ? kEdge : kRailing;
             wall.height = kEdgeHeight;
             wall.where = layout_.terrain->where;
-            wall.is_edge = !edge.is_opening;
+            wall.is_edge = !is_opening;
             addWall(edge.surface, wall, {edge.low, edge.high});
             movePoints(wall.points, result_->charts[edge.surface].shift);
             result_->plane.walls.push_back(std::move(wall));
