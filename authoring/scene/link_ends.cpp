@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::array kBeyondEnd = {0.05, 0.15, 0.3};           // m: looks at the ground beyond an end
 constexpr std::array kAcrossEnd = {-0.8, -0.4, 0.0, 0.4, 0.8};  // of half its width
-constexpr double kUnderSlab = 0.3;                          // m: floors of cabins have as much below them
+constexpr double kUnderSlab = 0.25;                         // m: floors of cabins are as thick
 
 /// The end of a link, or the doors of a lift.
 struct LinkEnd {

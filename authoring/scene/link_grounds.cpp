@@ -10,6 +10,7 @@
 #include <map>
 
 #include "authoring/link_kinds.h"
+#include "authoring/storeys/before_ends.h"
 #include "authoring/storeys/chart_raster.h"
 #include "base/polygon.h"
 
@@ -21,6 +22,8 @@ constexpr double kOnFloor = 0.01;  // m
 constexpr double kBesideIt = 0.05;  // m: an edge along the side of a link
 constexpr double kOverIt = 0.3;     // m: an edge that is so far over a link is that of an opening
 constexpr double kToCorner = 0.2;   // m: where edges end with the side of a link
+constexpr double kHairInside = 0.02;  // m
+constexpr double kPiece = 0.025;      // m: edges are looked at in such pieces
 constexpr double kShareOfWidth = 0.6;
 
 /// The spots of the lattice on a link's part.
@@ -48,6 +51,30 @@ std::vector<glm::dvec2> outlineOf(const Chart& part) {
 double distanceTo(const Chart& part, glm::dvec2 place) {
     const std::vector<glm::dvec2> outline = outlineOf(part);
     return distanceToPieces(outline, outline.size(), place);
+}
+
+/// The end of a link's side, or of what is beside its doors, if a place is near to it.
+glm::dvec2 atCorner(glm::dvec2 place, const Chart& part) {
+    std::vector<glm::dvec2> corners = outlineOf(part);
+    if (part.is_cabin)
+        for (const double side : {-1.0, 1.0})
+            corners.push_back(part.link.at(0.0, side * part.half_door));
+    const glm::dvec2 nearest = *std::ranges::min_element(
+        corners, {}, [&](glm::dvec2 corner) { return glm::distance(place, corner); });
+    return glm::distance(place, nearest) < kToCorner ? nearest : place;
+}
+
+/// Whether a place is within the opening before an end, where nothing stands any more, and ground is behind it.
+bool isBeforeEnd(const Chart& part, glm::dvec2 place, const Surface& ground) {
+    constexpr double kBehind = kThrough + 0.15;  // m
+    if (!part.is_link) return false;
+    const double clear = part.is_cabin ? part.half_door : part.link.half_width - 0.5 * kRailing;
+    const double along = part.link.alongOf(place), aside = part.link.asideOf(place);
+    if (std::abs(aside) > clear) return false;
+    const auto is_within = [](double beyond) { return beyond > -kHairInside && beyond < kThrough; };
+    if (is_within(-along)) return ground.contains(part.link.at(-kBehind, aside));
+    return !part.is_cabin && is_within(along - part.link.length) &&
+           ground.contains(part.link.at(part.link.length + kBehind, aside));
 }
 
 /// How many cells of a link's end lead on to each chart.
@@ -127,31 +154,21 @@ void joinEnd(const Layout& layout, std::size_t link, bool at_end, std::vector<Ch
 
 /// Layouts' walls may not stand before an end.
 void tellOfWallsBefore(const Layout& layout, const Chart& chart, Diagnostics& diagnostics) {
-    constexpr double kFree = 0.8;  // m
     const Link& link = layout.links[chart.index];
-    const double half = chart.is_cabin ? chart.half_door : 0.5 * link.width;
-    const auto stands_before = [&](const Wall& wall, double from, double to) {
-        const std::size_t pieces = wall.points.size() - (wall.closed ? 0 : 1);
-        for (int i = 0; i <= 8; ++i) {
-            const glm::dvec2 place = chart.link.at(0.5 * (from + to), half * (0.25 * i - 1.0));
-            if (distanceToPieces(wall.points, pieces, place) < 0.5 * std::abs(to - from)) return true;
-        }
-        return false;
+    const auto tell = [&](std::size_t level, bool at_end) {
+        if (layout.levels[level].is_landing) return;
+        for (const Wall& wall : layout.walls)
+            if (wall.toggles.empty() && wall.level == level && standsBefore(wall, chart, at_end))
+                diagnostics.error(link.where,
+                                  fmt::format("{} `{}` {} wall `{}` at level `{}`",
+                                              chart.is_cabin ? "the doors of lift" : "link", link.id,
+                                              chart.is_cabin ? "open into" : "ends in", wall.id,
+                                              layout.levels[level].id),
+                                  fmt::format("leave {:.1f} m before {} free", kBeforeDoors,
+                                              chart.is_cabin ? "them" : "it"));
     };
-    for (const Wall& wall : layout.walls) {
-        if (!wall.toggles.empty()) continue;
-        const auto tell = [&](std::size_t level, double from, double to) {
-            if (wall.level != level || layout.levels[level].is_landing || !stands_before(wall, from, to)) return;
-            diagnostics.error(link.where,
-                              fmt::format("{} `{}` {} wall `{}` at level `{}`",
-                                          chart.is_cabin ? "the doors of lift" : "link", link.id,
-                                          chart.is_cabin ? "open into" : "ends in", wall.id,
-                                          layout.levels[level].id),
-                              fmt::format("leave {:.1f} m before it free", kFree));
-        };
-        tell(chart.is_cabin ? link.lift.levels[chart.stop] : link.from, -kFree, 0.0);
-        if (!chart.is_cabin) tell(link.to, chart.link.length, chart.link.length + kFree);
-    }
+    tell(chart.is_cabin ? link.lift.levels[chart.stop] : link.from, false);
+    if (!chart.is_cabin) tell(link.to, true);
 }
 
 }  // namespace
@@ -214,8 +231,7 @@ void LinkGrounds::addPiece(const SurfaceEdge& edge, glm::dvec2 a, glm::dvec2 b,
     // Ground is known in cells, and railings end where they end.
     if (part)
         for (glm::dvec2* end : {&a, &b})
-            for (const glm::dvec2 corner : outlineOf(part->chart))
-                if (glm::distance(*end, corner) < kToCorner) *end = corner;
+            *end = atCorner(*end, part->chart);
     if (!kept.empty() && kept.back().surface == edge.surface && kept.back().beside == beside &&
         kept.back().points.back() == a && kept.back().low == edge.low)
         kept.back().points.push_back(b);
@@ -223,15 +239,35 @@ void LinkGrounds::addPiece(const SurfaceEdge& edge, glm::dvec2 a, glm::dvec2 b,
         kept.push_back({edge.surface, {a, b}, edge.low, edge.high, beside});
 }
 
+/// Edges lie where cells say, and the ground before an end is open as far as it is wide.
+void LinkGrounds::addWithoutOpenings(const SurfaceEdge& edge, const Surface& ground, glm::dvec2 a, glm::dvec2 b,
+                                     std::vector<SurfaceEdge>& kept) const {
+    const auto is_open = [&](glm::dvec2 place) {
+        return std::ranges::any_of(built_.parts, [&](const BuiltLink& part) {
+            return isBeforeEnd(part.chart, place, ground) && std::abs(part.chart.heightAt(place) - edge.high) < kOverIt;
+        });
+    };
+    const int pieces = std::max(1, static_cast<int>(std::ceil(glm::distance(a, b) / kPiece)));
+    const auto at = [&](int piece) { return glm::mix(a, b, static_cast<double>(piece) / pieces); };
+    int begin = 0;
+    for (int piece = 0; piece <= pieces; ++piece) {
+        const bool ends = piece == pieces || is_open(0.5 * (at(piece) + at(piece + 1)));
+        if (!ends) continue;
+        if (piece > begin) addPiece(edge, at(begin), at(piece), kept);
+        begin = piece + 1;
+    }
+}
+
 std::vector<SurfaceEdge> LinkGrounds::sorted(const std::vector<SurfaceEdge>& edges,
-                                             std::size_t first_link) const {
+                                             const std::vector<Surface>& surfaces) const {
     if (surfaces_.empty()) return edges;
+    const std::size_t first_link = surfaces.size() - surfaces_.size();
     std::vector<SurfaceEdge> kept;
     for (const SurfaceEdge& edge : edges)
         for (std::size_t i = 0; i + 1 < edge.points.size(); ++i) {
             const glm::dvec2 a = edge.points[i], b = edge.points[i + 1];
             if (edge.surface < first_link)
-                addPiece(edge, a, b, kept);
+                addWithoutOpenings(edge, surfaces[edge.surface], a, b, kept);
             else if (!hasRailing(edge.surface - first_link, 0.5 * (a + b)))
                 kept.push_back({edge.surface, {a, b}, edge.low, edge.high});
         }
@@ -244,6 +280,8 @@ void joinLinks(const Layout& layout, std::size_t first_link, std::vector<Chart>&
         if (!charts[i].is_link) continue;
         joinEnd(layout, i, false, charts, diagnostics);
         if (!charts[i].is_cabin) joinEnd(layout, i, true, charts, diagnostics);
+        if (charts[i].is_cabin && charts[i].stop == 0)
+            checkRoomInCabin(layout, layout.links[charts[i].index], diagnostics);
         tellOfWallsBefore(layout, charts[i], diagnostics);
     }
 }

@@ -24,12 +24,16 @@ class LinkGrounds {
     /// Charts of the surfaces, in that order.
     void addCharts(std::vector<Chart>& charts) const;
     /// Edges of all surfaces but for those along which links have railings; openings over links are told apart.
-    std::vector<SurfaceEdge> sorted(const std::vector<SurfaceEdge>& edges, std::size_t first_link) const;
+    /// @param surfaces all, of which those of links are the last
+    std::vector<SurfaceEdge> sorted(const std::vector<SurfaceEdge>& edges,
+                                    const std::vector<Surface>& surfaces) const;
 
   private:
     const BuiltLink* partAlong(const SurfaceEdge& edge, glm::dvec2 a, glm::dvec2 b) const;
     bool hasRailing(std::size_t surface, glm::dvec2 place) const;
     SurfaceEdge::Beside besideWhat(const SurfaceEdge& edge, const BuiltLink& part, glm::dvec2 place) const;
+    void addWithoutOpenings(const SurfaceEdge& edge, const Surface& ground, glm::dvec2 a, glm::dvec2 b,
+                            std::vector<SurfaceEdge>& kept) const;
     void addPiece(const SurfaceEdge& edge, glm::dvec2 a, glm::dvec2 b, std::vector<SurfaceEdge>& kept) const;
 
     const BuiltLinks& built_;

@@ -135,7 +135,7 @@ class TerrainLayingOut {
         grounds_->home = layout_;
         placeAll(placed);
         if (diagnostics_.hasErrors()) return nullptr;
-        standWalls(placed, links.sorted(edgesOf(surfaces), first_link));
+        standWalls(placed, links.sorted(edgesOf(surfaces), surfaces));
         standRailings(links, first_link);
         copyWallsIntoMargins(*result_, standing_);
         result_->grounds = grounds_;

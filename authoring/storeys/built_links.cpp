@@ -19,7 +19,6 @@ constexpr double kOverShaft = 3.0;    // m, over the highest floor
 constexpr double kTreadOver = 0.2;        // m: treads are so far over the slope of their stairs at the most
 constexpr double kSunk = 0.05;        // m: ground that a link lies in gives way to it
 constexpr double kBelow = 1.0;        // m: what is nearer below a link is never taken for its ground
-constexpr double kThrough = 0.35;     // m: parapets before its ends are opened that are not further away
 constexpr double kOverGround = 0.02;  // m: what is upright before an end is open from so high
 constexpr double kFoot = 0.3;         // m: railings reach so far below the ground beside them
 

@@ -11,6 +11,9 @@
 /// ground, edges and ways on a mesh finds them, too; where they go through a floor of the mesh, it is open.
 namespace throng::authoring {
 
+/// m: parapets before the ends of links are opened that are not further away.
+inline constexpr double kThrough = 0.35;
+
 struct BuiltLink {
     Chart chart;                    ///< of a flight, a landing, or a cabin at one of its stops
     std::vector<Railing> railings;  ///< along its sides
