@@ -22,7 +22,7 @@ constexpr double kOnFloor = 0.01;  // m
 constexpr double kBesideIt = 0.05;  // m: an edge along the side of a link
 constexpr double kOverIt = 0.3;     // m: an edge that is so far over a link is that of an opening
 constexpr double kToCorner = 0.2;   // m: where edges end with the side of a link
-constexpr double kHairInside = 0.02;  // m
+constexpr double kHairInside = 0.13;  // m: half a cell
 constexpr double kPiece = 0.025;      // m: edges are looked at in such pieces
 constexpr double kShareOfWidth = 0.6;
 
@@ -258,6 +258,19 @@ void LinkGrounds::addWithoutOpenings(const SurfaceEdge& edge, const Surface& gro
     }
 }
 
+/// Of two cells on either side of an end that are not joined, others beside them are: there is a way.
+bool LinkGrounds::isInDoorway(const SurfaceEdge& edge, const std::vector<Surface>& surfaces,
+                              glm::dvec2 place) const {
+    const std::size_t first_link = surfaces.size() - surfaces_.size();
+    const Chart& own = built_.parts[parts_[edge.surface - first_link]].chart;
+    const double height = own.heightAt(place);
+    for (std::size_t ground = 0; ground < first_link; ++ground)
+        if (isBeforeEnd(own, place, surfaces[ground]) &&
+            std::abs(surfaces[ground].heightAt(place) - height) < kOverIt)
+            return true;
+    return false;
+}
+
 std::vector<SurfaceEdge> LinkGrounds::sorted(const std::vector<SurfaceEdge>& edges,
                                              const std::vector<Surface>& surfaces) const {
     if (surfaces_.empty()) return edges;
@@ -268,7 +281,8 @@ std::vector<SurfaceEdge> LinkGrounds::sorted(const std::vector<SurfaceEdge>& edg
             const glm::dvec2 a = edge.points[i], b = edge.points[i + 1];
             if (edge.surface < first_link)
                 addWithoutOpenings(edge, surfaces[edge.surface], a, b, kept);
-            else if (!hasRailing(edge.surface - first_link, 0.5 * (a + b)))
+            else if (!hasRailing(edge.surface - first_link, 0.5 * (a + b)) &&
+                     !isInDoorway(edge, surfaces, 0.5 * (a + b)))
                 kept.push_back({edge.surface, {a, b}, edge.low, edge.high});
         }
     return kept;

@@ -30,6 +30,7 @@ class LinkGrounds {
 
   private:
     const BuiltLink* partAlong(const SurfaceEdge& edge, glm::dvec2 a, glm::dvec2 b) const;
+    bool isInDoorway(const SurfaceEdge& edge, const std::vector<Surface>& surfaces, glm::dvec2 place) const;
     bool hasRailing(std::size_t surface, glm::dvec2 place) const;
     SurfaceEdge::Beside besideWhat(const SurfaceEdge& edge, const BuiltLink& part, glm::dvec2 place) const;
     void addWithoutOpenings(const SurfaceEdge& edge, const Surface& ground, glm::dvec2 a, glm::dvec2 b,
