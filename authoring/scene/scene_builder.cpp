@@ -961,9 +961,10 @@ std::optional<Scene> buildScene(const Layout& layout, Diagnostics& diagnostics, 
     if (!areLevelsComplete(layout, diagnostics)) return std::nullopt;
     if (!haveGround(layout, layout.terrain && !layout.levels.empty(), diagnostics)) return std::nullopt;
     if (!areFeetOnGround(layout, diagnostics)) return std::nullopt;
-    if (!layout.levels.empty() && !isWithoutTraffic(layout, diagnostics)) return std::nullopt;
+    if (!layout.levels.empty() && !layout.terrain && !isWithoutTraffic(layout, diagnostics))
+        return std::nullopt;
     if (layout.terrain) {
-        if (terrain && layout.traffic.empty()) charts = layOutTerrain(layout, *terrain, diagnostics);
+        if (terrain) charts = layOutTerrain(layout, *terrain, diagnostics);
         if (diagnostics.hasErrors() || !haveGround(layout, charts != nullptr, diagnostics))
             return std::nullopt;
     } else if (!layout.levels.empty()) {

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "authoring/link_kinds.h"
+#include "authoring/scene/lane_grounds.h"
 #include "authoring/scene/link_ends.h"
 #include "authoring/scene/link_grounds.h"
 #include "authoring/scene/rebase.h"
@@ -129,11 +130,14 @@ class TerrainLayingOut {
         result_->reach = reachOf(layout_);
         joinLinks(layout_, first_link, result_->charts, diagnostics_);
         if (diagnostics_.hasErrors()) return nullptr;
-        layInPlane(*result_);
         nameGrounds(used);
         Layout placed = layout_;
+        layLanes(placed, places_, result_->charts, diagnostics_);
+        if (diagnostics_.hasErrors()) return nullptr;
+        layInPlane(*result_);
         grounds_->home = layout_;
         placeAll(placed);
+        checkLanes(placed, *result_, diagnostics_);
         if (diagnostics_.hasErrors()) return nullptr;
         standWalls(placed, links.sorted(edgesOf(surfaces), surfaces));
         standRailings(links, first_link);
@@ -161,6 +165,11 @@ class TerrainLayingOut {
         for (const Road& road : layout_.roads)
             for (const glm::dvec2 point : road.centreline)
                 use(places_.spotAt(point, road.level));
+        for (const Lane& lane : layout_.traffic.lanes)
+            for (const glm::dvec2 point : lane.points)
+                use(places_.spotAt(point, lane.level));
+        for (const Zebra& crossing : layout_.traffic.crossings)
+            use(places_.spotIn(crossing.polygon, crossing.level));
         for (const Formation& formation : layout_.formations)
             for (const glm::dvec2 place : formationPlaces(formation, layout_.simulation.seed).positions)
                 use(places_.spotAt(place, formation.level));

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kLeastSpots = 16;  // of ground that counts where nobody says which: a square metre
 constexpr int kBeside = 4;               // cells: so far from a place there may be its ground
 constexpr double kOffLevel = 0.5;        // m, in height
-constexpr double kSame = 0.01;           // m, in height: the ground of a landing
+constexpr double kLandingOff = 0.01;           // m, in height: the ground of a landing
 
 void visitAll(Destination& destination, const std::function<void(Place&)>& visit) {
     for (Place& place : destination.places)
@@ -67,7 +67,7 @@ std::uint32_t TerrainPlaces::spotOnLanding(const Level& landing) const {
         middle += corner / static_cast<double>(landing.floor.size());
     const std::uint32_t spot = ground_.nearestSpot(chartCellOf(middle), landing.height);
     const bool is_there =
-        spot != kNoSpot && std::abs(double{ground_.spots()[spot].height} - landing.height) < kSame;
+        spot != kNoSpot && std::abs(double{ground_.spots()[spot].height} - landing.height) < kLandingOff;
     return is_there ? spot : kNoSpot;
 }
 

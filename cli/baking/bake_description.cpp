@@ -195,6 +195,13 @@ void describeGrounds(const LoadedLayout& loaded, recording::BakeDescription& bak
     bake.roads = charts.grounds->home.roads;
     bake.areas = charts.grounds->home.areas;
     bake.patches = charts.grounds->home.patches;
+    for (const gpu::Vehicle& vehicle : loaded.scene.traffic.vehicles) {
+        constexpr double kWithin = 0.1;  // m
+        const authoring::Chart& chart = charts.charts[charts.plane.traffic.lanes[vehicle.lane].level];
+        const auto [lower, upper] = chart.bounds();
+        const glm::dvec2 move = chart.shift - loaded.scene.origin;
+        bake.vehicle_grounds.push_back({chart.shift, lower + move + kWithin, upper + move - kWithin});
+    }
     addLinks(charts.plane.links, bake);
     describeCabins(loaded, bake);
     bake.terrain = recording::BakeTerrain{charts.grounds->seen ? charts.grounds->seen : loaded.terrain,
