@@ -16,6 +16,7 @@ namespace throng::authoring {
 namespace {
 
 constexpr double kLaneLook = 0.25;   // m
+constexpr int kLooksAside = 16;      // to either side
 constexpr double kWidestBody = 1.3;  // m: half of the widest vehicle
 constexpr double kHeeded = 0.6;      // m beside it: drivers stop for people there
 
@@ -123,11 +124,13 @@ void checkLanes(const Layout& placed, const Charts& charts, Diagnostics& diagnos
         bool told = false;
         walkLane(lane, [&](glm::dvec2 place, glm::dvec2 along) {
             const glm::dvec2 left(-along.y, along.x);
-            for (double aside = -heededBeside(lane); !told && aside <= heededBeside(lane); aside += kLaneLook)
-                if (const Chart* other = otherAt(lane.level, place + aside * left)) {
-                    tell(lane.where, fmt::format("lane `{}`", lane.id), lane.level, *other, place + aside * left);
+            for (int look = -kLooksAside; !told && look <= kLooksAside; ++look) {
+                const glm::dvec2 at = place + heededBeside(lane) * look / kLooksAside * left;
+                if (const Chart* other = otherAt(lane.level, at)) {
+                    tell(lane.where, fmt::format("lane `{}`", lane.id), lane.level, *other, at);
                     told = true;
                 }
+            }
         });
     }
     for (const Zebra& crossing : placed.traffic.crossings) {

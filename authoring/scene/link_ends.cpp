@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::array kBeyondEnd = {0.05, 0.15, 0.3};           // m: looks at the ground beyond an end
 constexpr std::array kAcrossEnd = {-0.8, -0.4, 0.0, 0.4, 0.8};  // of half its width
+constexpr double kSameGround = 1.0;                         // m, in height, over the width of an end
 constexpr double kUnderSlab = 0.25;                         // m: floors of cabins are as thick
 
 /// The end of a link, or the doors of a lift.
@@ -42,20 +43,43 @@ class EndFinder {
     }
 
   private:
-    std::optional<double> heightAt(const LinkEnd& end) const {
+    template <class Visit>
+    void visitBeyond(const LinkEnd& end, double across, Visit visit) const {
         const glm::dvec2 left(-end.outward.y, end.outward.x);
+        for (const double beyond : kBeyondEnd) {
+            const glm::dvec2 place = end.at + beyond * end.outward + across * end.half_width * left;
+            const std::uint32_t spot = places_.onFootAt(chartCellOf(place), end.level);
+            if (spot != kNoSpot && visit(place, spot)) return;
+        }
+    }
+
+    /// Of what there is beyond an end, the ground that is nearest to its level's place on foot: before the edge
+    /// of a deck there may be the street below.
+    std::uint32_t groundBeyond(const LinkEnd& end) const {
+        std::uint32_t nearest = kNoSpot;
+        for (const double across : kAcrossEnd)
+            visitBeyond(end, across, [&](glm::dvec2, std::uint32_t spot) {
+                if (nearest == kNoSpot ||
+                    places_.stepsTo(spot, end.level) < places_.stepsTo(nearest, end.level))
+                    nearest = spot;
+                return false;
+            });
+        return nearest;
+    }
+
+    std::optional<double> heightAt(const LinkEnd& end) const {
+        const std::uint32_t ground = groundBeyond(end);
+        if (ground == kNoSpot) return std::nullopt;
+        const double about = ground_.spots()[ground].height;
         double sum = 0.0, count = 0.0;
         for (const double across : kAcrossEnd)
-            for (const double beyond : kBeyondEnd) {
-                const glm::dvec2 place = end.at + beyond * end.outward + across * end.half_width * left;
-                const std::uint32_t spot = places_.onFootAt(chartCellOf(place), end.level);
-                if (spot == kNoSpot) continue;
+            visitBeyond(end, across, [&](glm::dvec2 place, std::uint32_t spot) {
+                if (std::abs(ground_.spots()[spot].height - about) > kSameGround) return false;
                 const auto height = ground_.groundNear(place, ground_.spots()[spot].height);
-                if (!height) continue;
-                sum += *height;
-                count += 1.0;
-                break;
-            }
+                sum += height.value_or(0.0);
+                count += height ? 1.0 : 0.0;
+                return height.has_value();
+            });
         return count > 0.0 ? std::optional(sum / count) : std::nullopt;
     }
 

@@ -55,7 +55,7 @@ def test_vehicles_stop_only_for_those_on_their_ground(throng, tmp_path, slope):
 def test_vehicles_let_people_over_a_crossing_under_a_bridge(throng, tmp_path):
     mesh = Mesh()
     given = scene(mesh, crossings=[CROSSING])
-    given["areas"] = [{"id": "south", "polygon": box(4, -9, 12, -5)}, {"id": "north", "polygon": box(4, 5, 12, 9)},
+    given["areas"] = [{"id": "south", "polygon": box(4, -9, 12, -3)}, {"id": "north", "polygon": box(4, 3, 12, 9)},
                       {"id": "deck-south", "level": "deck", "polygon": box(4, -5, 12, -3)},
                       {"id": "deck-north", "level": "deck", "polygon": box(4, 3, 12, 5)}]
     given["roads"] = [{"id": "over", "level": "deck", "centreline": [[8, -5], [8, 5]], "width": 6}]
@@ -85,7 +85,7 @@ def test_vehicles_let_people_over_a_crossing_under_a_bridge(throng, tmp_path):
      "crossing `zebra`: there is no ground of the terrain"),
     (lambda mesh, given: given["lanes"][0].update(level="roof"), "there is no level `roof`"),
     (lambda mesh, given: given.update(links=[{"id": "way", "from": "street", "to": "deck", "width": 2,
-                                              "path": [[-7, 3], [0, 3]]}]),
+                                              "path": [[-7, 2.5], [0, 2.5]]}]),
      "lane `lane` comes to where the ground `street` goes on as `way`"),
 ])
 def test_mistakes_are_told(throng, tmp_path, change, message):
