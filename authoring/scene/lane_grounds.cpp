@@ -56,14 +56,16 @@ void layLane(Lane& lane, const TerrainPlaces& places, const std::vector<Chart>& 
         const std::size_t here = places.chartOf()[spot];
         if (chart && here != *chart) {
             told = true;
-            diagnostics.error(lane.where,
-                              fmt::format("lane `{}` leads from the ground `{}` onto `{}` at ({:.2f}, {:.2f})",
-                                          lane.id, charts[*chart].name, charts[here].name, place.x, place.y),
-                              "a lane lies on one ground: end it there, or name the `level` that it is on");
+            diagnostics.error(
+                lane.where,
+                fmt::format("lane `{}` leads from the ground `{}` onto `{}` at ({:.2f}, {:.2f})", lane.id,
+                            charts[*chart].name, charts[here].name, place.x, place.y),
+                "a lane lies on one ground: end it there, or name the `level` that it is on");
         }
         chart = chart.value_or(here);
     });
-    if (!chart) return tellNoGround(lane.where, fmt::format("lane `{}`", lane.id), lane.points.front(), diagnostics);
+    if (!chart)
+        return tellNoGround(lane.where, fmt::format("lane `{}`", lane.id), lane.points.front(), diagnostics);
     lane.level = *chart;
 }
 
@@ -81,10 +83,11 @@ void checkPlatforms(const Layout& placed, const Lane& lane, const std::vector<Ch
         if (!stop.platform) continue;
         const Area& area = placed.areas[stop.platform->area];
         if (area.level == lane.level) continue;
-        diagnostics.error(stop.where,
-                          fmt::format("platform `{}` of lane `{}` is area `{}`, which lies on another ground, `{}`",
-                                      stop.platform->id, lane.id, area.id, charts[area.level].name),
-                          "give the area and the lane the same `level`");
+        diagnostics.error(
+            stop.where,
+            fmt::format("platform `{}` of lane `{}` is area `{}`, which lies on another ground, `{}`",
+                        stop.platform->id, lane.id, area.id, charts[area.level].name),
+            "give the area and the lane the same `level`");
     }
 }
 
@@ -114,10 +117,11 @@ void checkLanes(const Layout& placed, const Charts& charts, Diagnostics& diagnos
     };
     const auto tell = [&](const SourcePosition& where, const std::string& what, std::size_t chart,
                           const Chart& other, glm::dvec2 at) {
-        diagnostics.error(where,
-                          fmt::format("{} comes to where the ground `{}` goes on as `{}`, at ({:.2f}, {:.2f})", what,
-                                      charts.charts[chart].name, other.name, at.x, at.y),
-                          "drivers know of people on their own ground only: keep it off that place");
+        diagnostics.error(
+            where,
+            fmt::format("{} comes to where the ground `{}` goes on as `{}`, at ({:.2f}, {:.2f})", what,
+                        charts.charts[chart].name, other.name, at.x, at.y),
+            "drivers know of people on their own ground only: keep it off that place");
     };
     for (const Lane& lane : placed.traffic.lanes) {
         checkPlatforms(placed, lane, charts.charts, diagnostics);
@@ -138,9 +142,11 @@ void checkLanes(const Layout& placed, const Charts& charts, Diagnostics& diagnos
         for (int y = first.y; y <= last.y; ++y)
             for (int x = first.x; x <= last.x; ++x) {
                 const glm::dvec2 place = chartCellMiddle({x, y});
-                const Chart* other = isWithin(crossing.polygon, place) ? otherAt(crossing.level, place) : nullptr;
+                const Chart* other =
+                    isWithin(crossing.polygon, place) ? otherAt(crossing.level, place) : nullptr;
                 if (!other) continue;
-                tell(crossing.where, fmt::format("crossing `{}`", crossing.id), crossing.level, *other, place);
+                tell(crossing.where, fmt::format("crossing `{}`", crossing.id), crossing.level, *other,
+                     place);
                 x = last.x;
                 y = last.y;
             }

@@ -14,8 +14,8 @@ namespace throng::authoring {
 void layLanes(Layout& placed, const TerrainPlaces& places, std::vector<Chart>& charts,
               Diagnostics& diagnostics);
 
-/// Tells of lanes that come to where their ground goes on as another: neither drivers nor people would know of
-/// each other there.
+/// Tells of lanes that come to where their ground goes on as another: neither drivers nor people would know
+/// of each other there.
 void checkLanes(const Layout& placed, const Charts& charts, Diagnostics& diagnostics);
 
 }  // namespace throng::authoring

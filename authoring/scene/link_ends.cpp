@@ -17,10 +17,10 @@
 namespace throng::authoring {
 namespace {
 
-constexpr std::array kBeyondEnd = {0.05, 0.15, 0.3};           // m: looks at the ground beyond an end
+constexpr std::array kBeyondEnd = {0.05, 0.15, 0.3};            // m: looks at the ground beyond an end
 constexpr std::array kAcrossEnd = {-0.8, -0.4, 0.0, 0.4, 0.8};  // of half its width
-constexpr double kSameGround = 1.0;                         // m, in height, over the width of an end
-constexpr double kUnderSlab = 0.25;                         // m: floors of cabins are as thick
+constexpr double kSameGround = 1.0;                             // m, in height, over the width of an end
+constexpr double kUnderSlab = 0.25;                             // m: floors of cabins are as thick
 
 /// The end of a link, or the doors of a lift.
 struct LinkEnd {
@@ -53,8 +53,8 @@ class EndFinder {
         }
     }
 
-    /// Of what there is beyond an end, the ground that is nearest to its level's place on foot: before the edge
-    /// of a deck there may be the street below.
+    /// Of what there is beyond an end, the ground that is nearest to its level's place on foot: before the
+    /// edge of a deck there may be the street below.
     std::uint32_t groundBeyond(const LinkEnd& end) const {
         std::uint32_t nearest = kNoSpot;
         for (const double across : kAcrossEnd)
@@ -117,9 +117,8 @@ class EndFinder {
         const Link& last = *flights.back();
         const double half = halfWidthOf(first);
         const std::string name = landings.empty() ? first.id : first.id.substr(0, first.id.rfind(','));
-        const double low =
-            heightAt({first.begin, glm::normalize(first.begin - first.end), half, first.from}, first,
-                     fmt::format("link `{}` begins on", name));
+        const double low = heightAt({first.begin, glm::normalize(first.begin - first.end), half, first.from},
+                                    first, fmt::format("link `{}` begins on", name));
         const double high = heightAt({last.end, glm::normalize(last.end - last.begin), half, last.to}, first,
                                      fmt::format("link `{}` ends on", name));
         if (diagnostics_.hasErrors()) return;
@@ -147,14 +146,16 @@ class EndFinder {
                 {lift.at + 0.5 * lift.size.y * outward, outward, 0.5 * lift.door_width, lift.levels[stop]},
                 link, fmt::format("the doors of lift `{}` open onto", link.id)));
             if (stop == 0 || diagnostics_.hasErrors()) continue;
-            const double rise = lift.heights[stop] - lift.heights[stop - 1], least = kLeastLiftRise + kUnderSlab;
+            const double rise = lift.heights[stop] - lift.heights[stop - 1],
+                         least = kLeastLiftRise + kUnderSlab;
             if (rise < least)
                 diagnostics_.error(
                     link.where,
-                    fmt::format("the grounds of levels `{}` and `{}` are {:.2f} m apart before the doors of lift "
-                                "`{}`: its stops are {} m or more",
-                                layout_.levels[lift.levels[stop - 1]].id, layout_.levels[lift.levels[stop]].id,
-                                rise, link.id, least));
+                    fmt::format(
+                        "the grounds of levels `{}` and `{}` are {:.2f} m apart before the doors of lift "
+                        "`{}`: its stops are {} m or more",
+                        layout_.levels[lift.levels[stop - 1]].id, layout_.levels[lift.levels[stop]].id, rise,
+                        link.id, least));
         }
     }
 

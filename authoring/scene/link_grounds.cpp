@@ -17,11 +17,11 @@
 namespace throng::authoring {
 namespace {
 
-constexpr double kOnSlope = 0.21;  // m: treads are so far from the slope of their stairs at the most
-constexpr double kOnFloor = 0.01;  // m
-constexpr double kBesideIt = 0.05;  // m: an edge along the side of a link
-constexpr double kOverIt = 0.3;     // m: an edge that is so far over a link is that of an opening
-constexpr double kToCorner = 0.2;   // m: where edges end with the side of a link
+constexpr double kOnSlope = 0.21;     // m: treads are so far from the slope of their stairs at the most
+constexpr double kOnFloor = 0.01;     // m
+constexpr double kBesideIt = 0.05;    // m: an edge along the side of a link
+constexpr double kOverIt = 0.3;       // m: an edge that is so far over a link is that of an opening
+constexpr double kToCorner = 0.2;     // m: where edges end with the side of a link
 constexpr double kHairInside = 0.13;  // m: half a cell
 constexpr double kPiece = 0.025;      // m: edges are looked at in such pieces
 constexpr double kShareOfWidth = 0.6;
@@ -64,7 +64,8 @@ glm::dvec2 atCorner(glm::dvec2 place, const Chart& part) {
     return glm::distance(place, nearest) < kToCorner ? nearest : place;
 }
 
-/// Whether a place is within the opening before an end, where nothing stands any more, and ground is behind it.
+/// Whether a place is within the opening before an end, where nothing stands any more, and ground is behind
+/// it.
 bool isBeforeEnd(const Chart& part, glm::dvec2 place, const Surface& ground) {
     constexpr double kBehind = kThrough + 0.15;  // m
     if (!part.is_link) return false;
@@ -117,7 +118,8 @@ int cellsAcross(const Chart& link, bool at_end) {
                 const glm::dvec2 middle = chartCellMiddle({x, y});
                 const double along = link.link.alongOf(middle),
                              beyond = link.link.alongOf(chartCellMiddle(glm::ivec2(x, y) + side));
-                if (along >= 0.0 && along <= link.link.length && std::abs(link.link.asideOf(middle)) <= wide &&
+                if (along >= 0.0 && along <= link.link.length &&
+                    std::abs(link.link.asideOf(middle)) <= wide &&
                     (at_end ? beyond > link.link.length : beyond < 0.0))
                     ++count;
             }
@@ -142,13 +144,14 @@ void joinEnd(const Layout& layout, std::size_t link, bool at_end, std::vector<Ch
                           "people step up or down 0.25 m at most, and need 2 m over their heads");
         return;
     }
-    const auto most = std::ranges::max_element(onward.charts, {}, [](const auto& each) { return each.second; });
+    const auto most =
+        std::ranges::max_element(onward.charts, {}, [](const auto& each) { return each.second; });
     (at_end ? chart.link_to : chart.link_from) = most->first;
     if (share < kShareOfWidth && !chart.is_cabin)
         diagnostics.warning(
             given.where,
-            fmt::format("link `{}` meets level `{}` with {:.0f} % of its width, at [{:.2f}, {:.2f}]", given.id,
-                        layout.levels[level].id, 100.0 * share, at.x, at.y),
+            fmt::format("link `{}` meets level `{}` with {:.0f} % of its width, at [{:.2f}, {:.2f}]",
+                        given.id, layout.levels[level].id, 100.0 * share, at.x, at.y),
             "move its end to where the ground is as wide");
 }
 
@@ -159,13 +162,13 @@ void tellOfWallsBefore(const Layout& layout, const Chart& chart, Diagnostics& di
         if (layout.levels[level].is_landing) return;
         for (const Wall& wall : layout.walls)
             if (wall.toggles.empty() && wall.level == level && standsBefore(wall, chart, at_end))
-                diagnostics.error(link.where,
-                                  fmt::format("{} `{}` {} wall `{}` at level `{}`",
-                                              chart.is_cabin ? "the doors of lift" : "link", link.id,
-                                              chart.is_cabin ? "open into" : "ends in", wall.id,
-                                              layout.levels[level].id),
-                                  fmt::format("leave {:.1f} m before {} free", kBeforeDoors,
-                                              chart.is_cabin ? "them" : "it"));
+                diagnostics.error(
+                    link.where,
+                    fmt::format("{} `{}` {} wall `{}` at level `{}`",
+                                chart.is_cabin ? "the doors of lift" : "link", link.id,
+                                chart.is_cabin ? "open into" : "ends in", wall.id, layout.levels[level].id),
+                    fmt::format("leave {:.1f} m before {} free", kBeforeDoors,
+                                chart.is_cabin ? "them" : "it"));
     };
     tell(chart.is_cabin ? link.lift.levels[chart.stop] : link.from, false);
     if (!chart.is_cabin) tell(link.to, true);
@@ -205,7 +208,8 @@ const BuiltLink* LinkGrounds::partAlong(const SurfaceEdge& edge, glm::dvec2 a, g
     const glm::dvec2 middle = 0.5 * (a + b);
     for (const BuiltLink& part : built_.parts) {
         const double over = edge.high - part.chart.heightAt(middle);
-        const bool is_near = over > -kHeadroom && (!part.chart.is_cabin || part.chart.stop == 0 || over < kOverIt);
+        const bool is_near =
+            over > -kHeadroom && (!part.chart.is_cabin || part.chart.stop == 0 || over < kOverIt);
         if (is_near && distanceTo(part.chart, middle) < kBesideIt) return &part;
     }
     return nullptr;
@@ -217,9 +221,9 @@ SurfaceEdge::Beside LinkGrounds::besideWhat(const SurfaceEdge& edge, const Built
     using enum SurfaceEdge::Beside;
     if (edge.high - part.chart.heightAt(place) < kOverIt) return railing;
     const bool stops = part.chart.is_cabin && std::ranges::any_of(built_.parts, [&](const BuiltLink& stop) {
-        return stop.chart.is_cabin && stop.chart.index == part.chart.index &&
-               std::abs(stop.chart.link.low - edge.high) < kOverIt;
-    });
+                           return stop.chart.is_cabin && stop.chart.index == part.chart.index &&
+                                  std::abs(stop.chart.link.low - edge.high) < kOverIt;
+                       });
     return stops ? railing : opening;
 }
 
@@ -240,11 +244,12 @@ void LinkGrounds::addPiece(const SurfaceEdge& edge, glm::dvec2 a, glm::dvec2 b,
 }
 
 /// Edges lie where cells say, and the ground before an end is open as far as it is wide.
-void LinkGrounds::addWithoutOpenings(const SurfaceEdge& edge, const Surface& ground, glm::dvec2 a, glm::dvec2 b,
-                                     std::vector<SurfaceEdge>& kept) const {
+void LinkGrounds::addWithoutOpenings(const SurfaceEdge& edge, const Surface& ground, glm::dvec2 a,
+                                     glm::dvec2 b, std::vector<SurfaceEdge>& kept) const {
     const auto is_open = [&](glm::dvec2 place) {
         return std::ranges::any_of(built_.parts, [&](const BuiltLink& part) {
-            return isBeforeEnd(part.chart, place, ground) && std::abs(part.chart.heightAt(place) - edge.high) < kOverIt;
+            return isBeforeEnd(part.chart, place, ground) &&
+                   std::abs(part.chart.heightAt(place) - edge.high) < kOverIt;
         });
     };
     const int pieces = std::max(1, static_cast<int>(std::ceil(glm::distance(a, b) / kPiece)));
@@ -303,10 +308,11 @@ void joinLinks(const Layout& layout, std::size_t first_link, std::vector<Chart>&
 void tellOfWalls(const BuiltLinks& built, const Layout& layout, Diagnostics& diagnostics) {
     for (const WallInTheWay& wall : built.walls) {
         const Link& link = layout.links[wall.link];
-        diagnostics.error(link.where,
-                          fmt::format("{} `{}` is in a wall of the terrain at [{:.2f}, {:.2f}, {:.2f}]",
-                                      link.isLift() ? "lift" : "link", link.id, wall.at.x, wall.at.y, wall.at.z),
-                          "move it, or leave room for it in the terrain");
+        diagnostics.error(
+            link.where,
+            fmt::format("{} `{}` is in a wall of the terrain at [{:.2f}, {:.2f}, {:.2f}]",
+                        link.isLift() ? "lift" : "link", link.id, wall.at.x, wall.at.y, wall.at.z),
+            "move it, or leave room for it in the terrain");
     }
 }
 
@@ -323,8 +329,8 @@ std::vector<PlacedRailing> railingsOf(const LinkGrounds& links, const BuiltLinks
             one.wall.points = railing.points;
             one.wall.thickness = kRailing;
             one.wall.height = railingHeight(part.chart);
-            one.wall.where =
-                part.chart.is_link ? layout.links[part.chart.index].where : layout.levels[part.chart.index].where;
+            one.wall.where = part.chart.is_link ? layout.links[part.chart.index].where
+                                                : layout.levels[part.chart.index].where;
             one.wall.level = one.chart;
             one.ground = {railing.low, railing.high};
             placed.push_back(std::move(one));

@@ -23,7 +23,8 @@ class LinkGrounds {
     const std::vector<std::size_t>& parts() const { return parts_; }
     /// Charts of the surfaces, in that order.
     void addCharts(std::vector<Chart>& charts) const;
-    /// Edges of all surfaces but for those along which links have railings; openings over links are told apart.
+    /// Edges of all surfaces but for those along which links have railings; openings over links are told
+    /// apart.
     /// @param surfaces all, of which those of links are the last
     std::vector<SurfaceEdge> sorted(const std::vector<SurfaceEdge>& edges,
                                     const std::vector<Surface>& surfaces) const;

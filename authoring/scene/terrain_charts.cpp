@@ -520,8 +520,8 @@ class TerrainLayingOut {
 };
 
 /// With links, the ground is looked at twice: for where these begin and end, and with them.
-std::shared_ptr<const Charts> layOutWithLinks(const Layout& layout, const TerrainMesh& mesh, const Bounds& bounds,
-                                              Diagnostics& diagnostics) {
+std::shared_ptr<const Charts> layOutWithLinks(const Layout& layout, const TerrainMesh& mesh,
+                                              const Bounds& bounds, Diagnostics& diagnostics) {
     const Walkable ground(mesh, bounds.first, bounds.second);
     const Pieces pieces = piecesOf(ground);
     TerrainPlaces places(layout, ground, pieces);

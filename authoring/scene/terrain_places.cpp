@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t kLeastSpots = 16;  // of ground that counts where nobody says which: a square metre
 constexpr int kBeside = 4;               // cells: so far from a place there may be its ground
 constexpr double kOffLevel = 0.5;        // m, in height
-constexpr double kLandingOff = 0.01;           // m, in height: the ground of a landing
+constexpr double kLandingOff = 0.01;     // m, in height: the ground of a landing
 
 void visitAll(Destination& destination, const std::function<void(Place&)>& visit) {
     for (Place& place : destination.places)

@@ -16,7 +16,7 @@ namespace {
 constexpr double kRailingHigh = 1.1;  // m
 constexpr double kShaftHigh = 2.3;    // m, of a lift's sides at each of its stops
 constexpr double kOverShaft = 3.0;    // m, over the highest floor
-constexpr double kTreadOver = 0.2;        // m: treads are so far over the slope of their stairs at the most
+constexpr double kTreadOver = 0.2;    // m: treads are so far over the slope of their stairs at the most
 constexpr double kSunk = 0.05;        // m: ground that a link lies in gives way to it
 constexpr double kBelow = 1.0;        // m: what is nearer below a link is never taken for its ground
 constexpr double kOverGround = 0.02;  // m: what is upright before an end is open from so high
@@ -144,10 +144,8 @@ void addSheets(const BuiltLink& part, TerrainMesh& mesh) {
         const glm::dvec2 a = railing.points.front(), b = railing.points.back();
         const double low_a = part.chart.heightAt(a), low_b = part.chart.heightAt(b),
                      high = railingHeight(part.chart);
-        mesh.positions.insert(mesh.positions.end(), {{a, low_a - kFoot},
-                                                     {b, low_b - kFoot},
-                                                     {b, low_b + high},
-                                                     {a, low_a + high}});
+        mesh.positions.insert(mesh.positions.end(),
+                              {{a, low_a - kFoot}, {b, low_b - kFoot}, {b, low_b + high}, {a, low_a + high}});
         const glm::dvec2 along = glm::normalize(b - a);
         mesh.normals.insert(mesh.normals.end(), 4, glm::vec3(along.y, -along.x, 0.0));
         for (const std::uint32_t corner : {0u, 1u, 2u, 0u, 2u, 3u})

@@ -27,8 +27,9 @@ struct WallInTheWay {
 
 struct BuiltLinks {
     std::vector<BuiltLink> parts;
-    TerrainMesh seen;    ///< the terrain with its openings, and links
-    TerrainMesh walked;  ///< the same as people get on: railings stand upright, and low under links is no ground
+    TerrainMesh seen;  ///< the terrain with its openings, and links
+    TerrainMesh
+        walked;  ///< the same as people get on: railings stand upright, and low under links is no ground
     std::vector<WallInTheWay> walls;
 };
 

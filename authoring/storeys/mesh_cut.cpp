@@ -68,9 +68,8 @@ std::optional<Split> splitBy(const Piece& piece, const UprightSolid& solid) {
     for (const std::vector<HalfSpace>* halves : {&solid.sides, &solid.ends})
         for (const HalfSpace& half : *halves) {
             // A face in the plane of a side belongs to the solid.
-            const bool goes_beyond = std::ranges::any_of(split.within, [&](const CornerPoint& corner) {
-                return half.beyond(corner.at) > kHairOff;
-            });
+            const bool goes_beyond = std::ranges::any_of(
+                split.within, [&](const CornerPoint& corner) { return half.beyond(corner.at) > kHairOff; });
             Piece beyond = goes_beyond ? partOf(split.within, half, false) : Piece();
             split.within = partOf(split.within, half, true);
             if (split.within.size() < 3 || areaOf(split.within) < kLeastArea) return std::nullopt;

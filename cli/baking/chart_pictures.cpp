@@ -34,10 +34,7 @@ Picture pictureOf(const authoring::Chart& chart, const std::vector<authoring::Ch
     const std::string level = chart.is_link ? charts.at(chart.link_from).name : chart.name;
     Picture picture;
     picture.name = chart.is_cabin ? fmt::format("{} at {}", chart.name, level) : chart.name;
-    picture.kind = chart.is_cabin  ? "lift"
-                   : chart.is_link ? "link"
-                   : chart.surface ? "ground"
-                                   : "level";
+    picture.kind = chart.is_cabin ? "lift" : chart.is_link ? "link" : chart.surface ? "ground" : "level";
     picture.level = level;
     const auto [lower, upper] = chart.bounds();
     picture.lower = lower - margin;
