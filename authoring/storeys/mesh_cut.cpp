@@ -146,15 +146,25 @@ class Cutter {
     void noteCut(std::size_t solid, const Piece& within, double up) {
         if (up > kFlatFace)
             for (std::size_t i = 0; i < within.size(); ++i)
-                if (isOnSide(solids_[solid], within[i].at, within[(i + 1) % within.size()].at))
+                if (isRim(solids_[solid], within[i].at, within[(i + 1) % within.size()].at))
                     rims_.emplace_back(within[i].at, within[(i + 1) % within.size()].at);
         if (std::abs(up) < kUprightFace) noteWall(solid, within);
     }
 
-    static bool isOnSide(const UprightSolid& solid, glm::dvec3 a, glm::dvec3 b) {
-        constexpr double kOn = 1.0e-6;  // m
+    /// Whether an edge is the rim of an opening: on the side of a solid, with the mesh going on beyond it.
+    bool isRim(const UprightSolid& solid, glm::dvec3 a, glm::dvec3 b) const {
+        constexpr double kOn = 1.0e-6, kBeyondIt = 0.01;  // m
         return std::ranges::any_of(solid.sides, [&](const HalfSpace& side) {
-            return std::abs(side.beyond(a)) < kOn && std::abs(side.beyond(b)) < kOn;
+            return std::abs(side.beyond(a)) < kOn && std::abs(side.beyond(b)) < kOn &&
+                   !isInAnySolid(0.5 * (a + b) + kBeyondIt * side.normal);
+        });
+    }
+
+    bool isInAnySolid(glm::dvec3 place) const {
+        const auto is_within = [&](const HalfSpace& half) { return half.beyond(place) <= 0.0; };
+        return std::ranges::any_of(solids_, [&](const UprightSolid& solid) {
+            return solid.takes_floors && std::ranges::all_of(solid.sides, is_within) &&
+                   std::ranges::all_of(solid.ends, is_within);
         });
     }
 
