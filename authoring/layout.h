@@ -147,6 +147,7 @@ struct Lift {
     double dwell = 3.0;               ///< s: the least that doors are open, also after the last has come in
     double speed = 1.0;               ///< m/s
     std::optional<std::uint32_t> capacity;  ///< none: as many as there is room for
+    std::vector<double> heights{};  ///< m, of the ground before its doors, if its levels are not level
 };
 
 /// A straight way between two levels, with a railing on either side, or a lift.
@@ -163,7 +164,8 @@ struct Link {
     double walking = 0.4;           ///< share of its people who walk on it
     Stand stand = Stand::anywhere;  ///< on which side those stand who do not
 
-    Lift lift{};  ///< of that kind
+    Lift lift{};                          ///< of that kind
+    std::optional<glm::dvec2> heights{};  ///< m, where it begins and ends, if its levels are not level
 
     bool isLift() const { return kind == Kind::lift; }
     /// Whether its ground moves, from where it begins to where it ends.

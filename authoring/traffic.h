@@ -20,6 +20,7 @@ struct Zebra {
     std::string id;
     std::vector<glm::dvec2> polygon;  ///< simple, any winding
     SourcePosition where;
+    std::size_t level = 0;  ///< that it lies on, index into the layout's levels if there are any
 };
 
 /// What a signal can hold: a crossing or a lane, by its index.
@@ -77,6 +78,7 @@ struct Lane {
     double speed = 13.9;  ///< m/s, the most that is allowed
     std::vector<LaneStop> stops;
     SourcePosition where;
+    std::size_t level = 0;  ///< as of crossings
 };
 
 enum class VehicleKind { car, bus, tram, bicycle };

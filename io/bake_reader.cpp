@@ -169,6 +169,7 @@ void readLinks(const ManifestReader& reader, Bake& bake) {
         link.end = path.back();
         if (link.begin == link.end) each.fail("/path", "a path of two places");
         link.width = each.length("/width");
+        if (each.has("/heights")) link.heights = each.point("/heights");
         const std::string type = each.text("/type");
         const auto kind = std::ranges::find_if(authoring::kLinkKinds,
                                                [&](const auto& known) { return known.first == type; });

@@ -29,7 +29,8 @@ std::vector<LiftIdentity> liftsOf(const recording::BakeDescription& description)
                           {}};
         for (std::size_t stop = 0; stop < lift.levels.size(); ++stop) {
             const authoring::Level& level = description.levels.at(lift.levels[stop]);
-            made.stops.push_back({level.id, level.height, lift.doors + (lift.opposite[stop] ? 180.0 : 0.0)});
+            made.stops.push_back({level.id, lift.heights.empty() ? level.height : lift.heights[stop],
+                                  lift.doors + (lift.opposite[stop] ? 180.0 : 0.0)});
         }
         lifts.push_back(std::move(made));
     }

@@ -154,13 +154,15 @@ std::string_view nameOf(authoring::Link::Kind kind) {
 
 Json linksToJson(const recording::BakeDescription& description) {
     Json list = Json::array();
-    for (const authoring::Link& link : description.links)
+    for (const authoring::Link& link : description.links) {
         list.push_back({{"id", link.id},
                         {"type", nameOf(link.kind)},
                         {"from", description.levels.at(link.from).id},
                         {"to", description.levels.at(link.to).id},
                         {"path", pointsToJson({link.begin, link.end}, description.output_origin)},
                         {"width", link.width}});
+        if (link.heights) list.back()["heights"] = {link.heights->x, link.heights->y};
+    }
     return list;
 }
 

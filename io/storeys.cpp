@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "base/polygon.h"
 
@@ -18,12 +19,14 @@ constexpr double kShoulder = 0.3;  // m: from a link's width to its railings, or
 }  // namespace
 
 std::size_t Storeys::nearestLevel(double height) const {
-    const auto apart = [&](const authoring::Level& level) { return std::abs(level.height - height); };
+    const auto apart = [&](const authoring::Level& level) {
+        return level.is_landing ? std::numeric_limits<double>::infinity() : std::abs(level.height - height);
+    };
     return static_cast<std::size_t>(std::ranges::min_element(bake_.levels, {}, apart) - bake_.levels.begin());
 }
 
 std::optional<std::size_t> Storeys::levelAt(glm::dvec2 place, double height) const {
-    if (bake_.has_grounds) return nearestLevel(height);
+    if (bake_.has_grounds) return groundAt(place, height);
     for (std::size_t i = 0; i < bake_.levels.size(); ++i)
         if (std::abs(bake_.levels[i].height - height) < kStep && isWithin(bake_.levels[i].floor, place)) {
             // The first tread of a link that begins within a floor is as low.
@@ -33,6 +36,15 @@ std::optional<std::size_t> Storeys::levelAt(glm::dvec2 place, double height) con
             if (!climbs) return i;
         }
     return std::nullopt;
+}
+
+/// Grounds are not level, and links are.
+std::optional<std::size_t> Storeys::groundAt(glm::dvec2 place, double height) const {
+    for (std::size_t i = 0; i < bake_.levels.size(); ++i)
+        if (bake_.levels[i].is_landing && std::abs(bake_.levels[i].height - height) < kStep &&
+            isWithin(bake_.levels[i].floor, place))
+            return i;
+    return linkAt(place, height) ? std::nullopt : std::optional(nearestLevel(height));
 }
 
 std::optional<std::size_t> Storeys::linkAt(glm::dvec2 place, double height) const {
@@ -63,7 +75,8 @@ double Storeys::lengthOf(std::size_t link) const {
 
 double Storeys::heightOf(std::size_t link, double along) const {
     const authoring::Link& on = bake_.links[link];
-    const double low = bake_.levels[on.from].height, high = bake_.levels[on.to].height;
+    const double low = on.heights ? on.heights->x : bake_.levels[on.from].height,
+                 high = on.heights ? on.heights->y : bake_.levels[on.to].height;
     return low + (high - low) * std::clamp(along / lengthOf(link), 0.0, 1.0);
 }
 

@@ -15,7 +15,8 @@ class Storeys {
     /// @param bake outlives this
     explicit Storeys(const Bake& bake) : bake_(bake) {}
 
-    /// The level whose floor a place is on, at about that height; of a terrain's, the one nearest in height.
+    /// The level whose floor a place is on, at about that height; of a terrain's, the one nearest in
+    /// height where it is on no link.
     std::optional<std::size_t> levelAt(glm::dvec2 place, double height) const;
     /// The link that it is on, where it is on no level.
     std::optional<std::size_t> linkAt(glm::dvec2 place, double height) const;
@@ -32,7 +33,9 @@ class Storeys {
     bool isWallBeside(std::size_t level, std::size_t wall) const;
 
   private:
+    /// Of those that are no landings.
     std::size_t nearestLevel(double height) const;
+    std::optional<std::size_t> groundAt(glm::dvec2 place, double height) const;
     /// @param heights lowest and highest, of what stands there
     bool isBeside(std::size_t level, glm::dvec2 place, glm::dvec2 heights) const;
 

@@ -2,6 +2,7 @@
 #include "io/vehicle_file.h"
 
 #include <algorithm>
+#include <glm/common.hpp>
 
 #include "io/streams/track_file.h"
 
@@ -61,12 +62,19 @@ std::vector<float> placedVehicles(const recording::BakeDescription& description,
     std::vector<float> placed(known.begin(), known.end());
     placed.resize(values);
     const glm::dvec2 shift = description.scene_origin - description.output_origin;
+    const auto& grounds = description.vehicle_grounds;
     for (std::size_t at = 0; at < placed.size(); at += kVehicleFloats) {
         if (placed[at + static_cast<std::size_t>(VehicleColumn::state)] == kVehicleAway) continue;
+        glm::dvec2 place(placed[at], placed[at + 1]), on_ground = place;
+        if (!grounds.empty()) {
+            const auto& ground = grounds[at / kVehicleFloats % grounds.size()];
+            on_ground = glm::clamp(place, ground.lower, ground.upper);
+            place -= ground.shift;
+        }
         if (description.terrain)
-            placed[at + 2] = description.terrain->surface->heightAt({placed[at], placed[at + 1]});
-        placed[at] = static_cast<float>(placed[at] + shift.x);
-        placed[at + 1] = static_cast<float>(placed[at + 1] + shift.y);
+            placed[at + 2] = description.terrain->surface->heightAt(glm::vec2(on_ground));
+        placed[at] = static_cast<float>(place.x + shift.x);
+        placed[at + 1] = static_cast<float>(place.y + shift.y);
     }
     return placed;
 }

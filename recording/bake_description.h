@@ -200,7 +200,13 @@ struct BakeDescription {
     std::vector<authoring::Wall> walls;
     authoring::Traffic traffic;  ///< where lanes, crossings and signals are
     std::vector<VehicleIdentity> vehicles;
-    std::vector<DoorIdentity> doors;  ///< per vehicle; empty: none has any that are used
+    /// The ground under a vehicle where ground is cut into charts.
+    struct VehicleGround {
+        glm::dvec2 shift{0.0};              ///< m, from home to the frame of reference of the track
+        glm::dvec2 lower{0.0}, upper{0.0};  ///< m, likewise: beyond, it is as high as at its edge
+    };
+    std::vector<VehicleGround> vehicle_grounds;  ///< per vehicle; empty: the ground is one
+    std::vector<DoorIdentity> doors;             ///< per vehicle; empty: none has any that are used
     std::optional<BakeTerrain>
         terrain;  ///< none: flat ground at height 0; floors and links of layouts with levels
     std::vector<authoring::Level> levels;

@@ -154,7 +154,7 @@ class Measurer {
             walls_.standAt(heights_[i]);
             double& deepest = isGiven(i) ? given_.deepest_wall_penetration : result_.deepest_wall_penetration;
             deepest = std::max(deepest, walls_.empty() ? 0.0 : walls_.penetration(bodies_[i]));
-            if (!vehicles_.empty() && !isGiven(i)) vehicles_.look(frame, row, bodies_[i]);
+            if (!vehicles_.empty() && !isGiven(i)) vehicles_.look(frame, row, bodies_[i], heights_[i]);
             if (!heads_.empty()) heads_.look(now(), aliveSince(row, 1) ? &before(1) : nullptr, row);
             if (!aliveSince(row, 1)) continue;
             const glm::dvec2 from = before(1).place(row);

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/door_track.h"
+#include "base/storeys.h"
 #include "io/door_file.h"
 #include "io/vehicle_file.h"
 
@@ -45,10 +46,11 @@ bool VehicleWatch::isInDoorway(std::uint32_t frame, std::size_t vehicle, glm::dv
                                [&](double at) { return std::abs(behind - at) <= 0.5 * doors.width; });
 }
 
-void VehicleWatch::look(std::uint32_t frame, std::uint32_t row, const Capsule& body) {
+void VehicleWatch::look(std::uint32_t frame, std::uint32_t row, const Capsule& body, double height) {
     for (std::size_t i = 0; i < bake_.vehicles.size(); ++i) {
         const std::span<const float> at = placeOf(frame, i);
         if (at[static_cast<std::size_t>(VehicleColumn::state)] == kVehicleAway) continue;
+        if (bake_.hasStoreys() && !areOnOneGround(double{at[2]}, height)) continue;
         const glm::dvec2 offset = body.middle - glm::dvec2(at[0], at[1]);
         const glm::dvec2 half(0.5 * bake_.vehicles[i].length, 0.5 * bake_.vehicles[i].width);
         if (glm::length(offset) > kNear + half.x) continue;

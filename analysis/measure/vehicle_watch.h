@@ -16,7 +16,8 @@ class VehicleWatch {
   public:
     explicit VehicleWatch(const io::Bake& bake);
     /// In a frame, all that there is of somebody.
-    void look(std::uint32_t frame, std::uint32_t row, const Capsule& body);
+    /// @param height m, of the ground there: who is above or below a vehicle is not near to it
+    void look(std::uint32_t frame, std::uint32_t row, const Capsule& body, double height);
 
     bool empty() const { return bake_.vehicles.empty(); }
     /// m, of all; below 0 somebody was in one; none where nobody came near one.

@@ -76,7 +76,10 @@ class Bending {
         cut();
         if (!fault_) checkApart();
         if (fault_) return {};
-        rise(low, high, riser);
+        std::vector<Level*> landings;
+        for (Level& landing : result_.landings)
+            landings.push_back(&landing);
+        raiseLandings(result_.flights, landings, low, high, riser);
         return std::move(result_);
     }
 
@@ -199,20 +202,6 @@ class Bending {
         return {std::min(begin, end) - aside, std::max(begin, end) + aside};
     }
 
-    /// By the lengths of the flights; where there are steps, all of them are as high.
-    void rise(double low, double high, double riser) {
-        double whole = 0.0, so_far = 0.0;
-        for (const Link& flight : result_.flights)
-            whole += glm::distance(flight.begin, flight.end);
-        const double steps = riser > 0.0 ? std::max(std::round(std::abs(high - low) / riser), 1.0) : 0.0;
-        for (std::size_t i = 0; i < result_.landings.size(); ++i) {
-            so_far += glm::distance(result_.flights[i].begin, result_.flights[i].end);
-            double share = so_far / whole;
-            if (steps > 0.0) share = std::round(share * steps) / steps;
-            result_.landings[i].height = low + share * (high - low);
-        }
-    }
-
     const Link& link_;
     const std::vector<glm::dvec2>& path_;
     double half_;
@@ -222,6 +211,20 @@ class Bending {
 };
 
 }  // namespace
+
+void raiseLandings(const std::vector<Link>& flights, const std::vector<Level*>& landings, double low,
+                   double high, double riser) {
+    double whole = 0.0, so_far = 0.0;
+    for (const Link& flight : flights)
+        whole += glm::distance(flight.begin, flight.end);
+    const double steps = riser > 0.0 ? std::max(std::round(std::abs(high - low) / riser), 1.0) : 0.0;
+    for (std::size_t i = 0; i < landings.size(); ++i) {
+        so_far += glm::distance(flights[i].begin, flights[i].end);
+        double share = so_far / whole;
+        if (steps > 0.0) share = std::round(share * steps) / steps;
+        landings[i]->height = low + share * (high - low);
+    }
+}
 
 BentLink bend(const Link& link, const std::vector<glm::dvec2>& path, double low, double high, double riser,
               std::optional<BentLinkFault>& fault) {

@@ -30,4 +30,8 @@ struct BentLinkFault {
 BentLink bend(const Link& link, const std::vector<glm::dvec2>& path, double low, double high, double riser,
               std::optional<BentLinkFault>& fault);
 
+/// Heights of landings, by the lengths of the flights; where there are steps, all of them are as high.
+void raiseLandings(const std::vector<Link>& flights, const std::vector<Level*>& landings, double low,
+                   double high, double riser);
+
 }  // namespace throng::authoring

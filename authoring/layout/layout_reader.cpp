@@ -397,7 +397,7 @@ class Reader {
     GivenReader given_{schema_, layout_, levels_, groups_, diagnostics_};
     SeatReader seats_{schema_, layout_, places_, levels_, groups_, walls_, diagnostics_};
     BoardingReader boarding_{schema_, layout_, areas_, diagnostics_};
-    TrafficReader traffic_{schema_, layout_, boarding_, diagnostics_};
+    TrafficReader traffic_{schema_, layout_, levels_, boarding_, diagnostics_};
     BehaviourReader behaviours_{schema_, layout_, places_, groups_, walls_, traffic_, diagnostics_};
     FlowReader flows_{schema_, layout_, places_, behaviours_, boarding_, groups_, diagnostics_};
     FormationReader formations_{schema_, layout_, places_, levels_, behaviours_, groups_, diagnostics_};

@@ -113,10 +113,9 @@ void LevelReader::readLink(const JsonNode& node) {
 
 /// As links and levels of its own.
 void LevelReader::addBentLink(const Link& link, const std::vector<glm::dvec2>& path, const JsonNode& node) {
-    constexpr double kRiser = 0.17;  // m, as treads are
     const double low = layout_.levels[link.from].height, high = layout_.levels[link.to].height;
     std::optional<BentLinkFault> fault;
-    BentLink bent = bend(link, path, low, high, link.kind == Link::Kind::stairs ? kRiser : 0.0, fault);
+    BentLink bent = bend(link, path, low, high, riserOf(link), fault);
     if (fault) return diagnostics_.error(node.find("path")->where, fault->message, fault->hint);
     double run = 0.0;
     for (const Link& flight : bent.flights)
@@ -134,7 +133,8 @@ void LevelReader::addBentLink(const Link& link, const std::vector<glm::dvec2>& p
         if (i < bent.landings.size()) flight.to = first_landing + i;
         claimId(node, flight.id, links_, layout_.links.size(), "a link", diagnostics_);
         // Landings are as high as whole steps make them: of short flights that is much.
-        if (!diagnostics_.hasErrors()) checkLink(flight, glm::distance(flight.begin, flight.end), node);
+        if (!diagnostics_.hasErrors() && !isOnTerrain(link))
+            checkLink(flight, glm::distance(flight.begin, flight.end), node);
         layout_.links.push_back(std::move(flight));
     }
 }
@@ -161,11 +161,26 @@ void LevelReader::checkLink(const Link& link, double run, const JsonNode& node) 
                            fmt::format("link `{}` begins and ends at the same level", link.id));
         return;
     }
+    if (isOnTerrain(link)) return;
     const double rise = std::abs(layout_.levels[link.to].height - layout_.levels[link.from].height);
+    checkClimb(link, rise, run, node.find("path")->where, diagnostics_);
+}
+
+bool LevelReader::isOnTerrain(const Link& link) const {
+    return layout_.levels[link.from].at || layout_.levels[link.to].at;
+}
+
+double riserOf(const Link& link) {
+    constexpr double kRiser = 0.17;  // m, as treads are
+    return link.kind == Link::Kind::stairs ? kRiser : 0.0;
+}
+
+void checkClimb(const Link& link, double rise, double run, const SourcePosition& where,
+                Diagnostics& diagnostics) {
     const Climb climb = climbOf(link.kind);
     const auto tell = [&](const char* most_or_least, double share, const std::string& hint) {
-        diagnostics_.error(
-            node.find("path")->where,
+        diagnostics.error(
+            where,
             fmt::format("link `{}` climbs {:.2f} m over {:.2f} m: {} climb {}", link.id, rise, run,
                         climb.many, fmt::format(fmt::runtime(most_or_least), 100.0 * share)),
             hint);

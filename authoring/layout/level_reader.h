@@ -9,6 +9,17 @@
 
 namespace throng::authoring {
 
+/// Tells of links that climb more than their kind can, or hardly at all.
+/// @param rise, run m, of all their slopes together; the latter in plan
+void checkClimb(const Link& link, double rise, double run, const SourcePosition& where,
+                Diagnostics& diagnostics);
+
+/// m: of a flight of steps about as high; 0 of links that have none.
+double riserOf(const Link& link);
+
+/// m from one stop of a lift to the next, at the least: headroom.
+inline constexpr double kLeastLiftRise = 2.2;
+
 /// Reads floors, what joins them, and which of them something is on.
 class LevelReader {
   public:
@@ -31,6 +42,8 @@ class LevelReader {
     void addBentLink(const Link& link, const std::vector<glm::dvec2>& path, const JsonNode& node);
     /// @param run m in plan, of its slopes
     void checkLink(const Link& link, double run, const JsonNode& node) const;
+    /// Whether its ends are as high as the ground of a terrain, which is not known yet.
+    bool isOnTerrain(const Link& link) const;
 
     const Schema& schema_;
     Layout& layout_;

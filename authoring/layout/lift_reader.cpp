@@ -13,7 +13,6 @@ namespace {
 constexpr std::array kOfWays = {"from", "to", "path", "width", "walking", "stand"};
 constexpr double kAlongDoors = 0.1;  // m: of a cabin's front beside its doors, at the least
 constexpr double kSpeed = 1.0;       // m/s: the usual one of lifts in low houses
-constexpr double kLeastRise = 2.2;   // m, from one stop to the next: headroom
 
 }  // namespace
 
@@ -79,17 +78,20 @@ void LevelReader::readStops(ObjectReader& reader, const JsonNode& node, Lift& li
     std::vector<std::pair<std::size_t, bool>> stops;
     for (std::size_t i = 0; i < lift.levels.size(); ++i)
         stops.emplace_back(lift.levels[i], lift.opposite[i]);
-    const auto height = [&](const auto& stop) { return layout_.levels[stop.first].height; };
+    const auto height = [&](const auto& stop) {
+        const Level& level = layout_.levels[stop.first];
+        return level.at ? level.at->z : level.height;
+    };
     std::ranges::stable_sort(stops, {}, height);
     for (std::size_t i = 0; i < stops.size(); ++i) {
         lift.levels[i] = stops[i].first;
         lift.opposite[i] = stops[i].second;
-        if (i > 0 && height(stops[i]) - height(stops[i - 1]) < kLeastRise)
+        if (i > 0 && height(stops[i]) - height(stops[i - 1]) < kLeastLiftRise)
             diagnostics_.error(
                 node.find("levels")->where,
                 fmt::format("levels `{}` and `{}` are {:.2f} m apart: the stops of a lift are {} m or more",
                             layout_.levels[stops[i - 1].first].id, layout_.levels[stops[i].first].id,
-                            height(stops[i]) - height(stops[i - 1]), kLeastRise));
+                            height(stops[i]) - height(stops[i - 1]), kLeastLiftRise));
     }
 }
 

@@ -45,6 +45,7 @@ void TrafficReader::readCrossing(const JsonNode& node) {
     if (!reader.isObject()) return;
     reader.requiredText("id", "the name that signals use", crossing.id);
     crossing.polygon = reader.points("polygon");
+    crossing.level = levels_.levelOf(reader);
     reader.finish();
     checkPolygon(crossing.polygon, node.find("polygon"), diagnostics_);
     claimId(node, crossing.id, crossings_, layout_.traffic.crossings.size(), "a crossing", diagnostics_);
@@ -58,6 +59,7 @@ void TrafficReader::readLane(const JsonNode& node) {
     if (!reader.isObject()) return;
     reader.requiredText("id", "the name that signals and vehicles use", lane.id);
     lane.points = reader.points("points");
+    lane.level = levels_.levelOf(reader);
     reader.number("width", lane.width);
     reader.number("speed", lane.speed);
     eachOf(reader, "stops", [&](const JsonNode& item) { readStop(item, lane); });

@@ -7,6 +7,7 @@
 
 #include "authoring/layout.h"
 #include "authoring/layout/boarding_reader.h"
+#include "authoring/layout/level_reader.h"
 #include "authoring/layout/object_reader.h"
 
 namespace throng::authoring {
@@ -15,8 +16,9 @@ namespace throng::authoring {
 /// lanes are read first, and what they say of signals is looked up at the end.
 class TrafficReader {
   public:
-    TrafficReader(const Schema& schema, Layout& layout, BoardingReader& boarding, Diagnostics& diagnostics)
-        : schema_(schema), layout_(layout), boarding_(boarding), diagnostics_(diagnostics) {}
+    TrafficReader(const Schema& schema, Layout& layout, const LevelReader& levels, BoardingReader& boarding,
+                  Diagnostics& diagnostics)
+        : schema_(schema), layout_(layout), levels_(levels), boarding_(boarding), diagnostics_(diagnostics) {}
 
     void readCrossing(const JsonNode& node);
     void readLane(const JsonNode& node);
@@ -46,6 +48,7 @@ class TrafficReader {
 
     const Schema& schema_;
     Layout& layout_;
+    const LevelReader& levels_;
     BoardingReader& boarding_;
     Diagnostics& diagnostics_;
     Ids crossings_, lanes_, signals_, flows_;

@@ -81,6 +81,12 @@ gpu::Belt beltOf(const Chart& chart, const Layout& layout, glm::dvec2 origin) {
     return belt;
 }
 
+/// Landings are a part of their link: nothing of the layout lies on them.
+bool isLanding(const Chart& chart, const Layout& layout) {
+    return !chart.is_link && !chart.floor.empty() && chart.index < layout.levels.size() &&
+           layout.levels[chart.index].is_landing;
+}
+
 LiftMap liftsOf(const Charts& charts, glm::dvec2 origin) {
     const Layout& layout = charts.plane;
     LiftMap map;
@@ -177,7 +183,7 @@ ChartMap makeChartMap(const Charts& charts, glm::vec2 minimum, glm::vec2 maximum
         const ChartRaster& raster = charts.rasters[chart];
         map.shifts.emplace_back(charts.charts[chart].shift);
         const Chart& each = charts.charts[chart];
-        map.is_link.push_back(each.is_link);
+        map.is_link.push_back(each.is_link || isLanding(each, charts.plane));
         map.costs.push_back(costOf(each, charts.plane));
         map.belts.push_back(beltOf(each, charts.plane, origin));
         const glm::ivec2 shift(glm::round(charts.charts[chart].shift / kChartCell));

@@ -110,7 +110,8 @@ class SceneAssembly {
     void standOnTerrain(const Charts& charts) {
         PlaneGround ground = planeGroundOf(charts, scene_.chart_map, scene_.origin);
         try {
-            scene_.terrain = std::make_shared<const Terrain>(*terrain_mesh_, std::move(ground), scene_.origin,
+            const TerrainMesh& mesh = charts.grounds->walked ? *charts.grounds->walked : *terrain_mesh_;
+            scene_.terrain = std::make_shared<const Terrain>(mesh, std::move(ground), scene_.origin,
                                                              scene_.minimum, scene_.maximum);
             scene_.chart_map.cell_costs =
                 slopeCosts(*scene_.terrain, scene_.chart_map, layout_.simulation.motion);
@@ -318,9 +319,10 @@ std::optional<Scene> buildScene(const Layout& layout, Diagnostics& diagnostics, 
     if (!areLevelsComplete(layout, diagnostics)) return std::nullopt;
     if (!haveGround(layout, layout.terrain && !layout.levels.empty(), diagnostics)) return std::nullopt;
     if (!areFeetOnGround(layout, diagnostics)) return std::nullopt;
-    if (!layout.levels.empty() && !isWithoutTraffic(layout, diagnostics)) return std::nullopt;
+    if (!layout.levels.empty() && !layout.terrain && !isWithoutTraffic(layout, diagnostics))
+        return std::nullopt;
     if (layout.terrain) {
-        if (terrain && layout.traffic.empty()) charts = layOutTerrain(layout, *terrain, diagnostics);
+        if (terrain) charts = layOutTerrain(layout, *terrain, diagnostics);
         if (diagnostics.hasErrors() || !haveGround(layout, charts != nullptr, diagnostics))
             return std::nullopt;
     } else if (!layout.levels.empty()) {

@@ -10,6 +10,10 @@
 #include <limits>
 #include <stdexcept>
 
+#include "authoring/link_kinds.h"
+#include "authoring/scene/lane_grounds.h"
+#include "authoring/scene/link_ends.h"
+#include "authoring/scene/link_grounds.h"
 #include "authoring/scene/rebase.h"
 #include "authoring/scene/terrain_places.h"
 #include "authoring/storeys/given_ways.h"
@@ -47,10 +51,15 @@ Bounds boundsOf(const Layout& layout, const Rebase& rebase, const TerrainMesh& m
     }
     glm::dvec2 least = rebase.origin() + glm::dvec2(rebase.minimum()),
                most = rebase.origin() + glm::dvec2(rebase.maximum());
-    for (const Level& level : layout.levels) {
-        const glm::dvec2 at(level.at.value_or(glm::dvec3(least, 0.0)));
+    const auto include = [&](glm::dvec2 at) {
         least = glm::min(least, at);
         most = glm::max(most, at);
+    };
+    for (const Level& level : layout.levels)
+        include(glm::dvec2(level.at.value_or(glm::dvec3(least, 0.0))));
+    for (const Link& link : layout.links) {
+        include(link.isLift() ? link.lift.at : link.begin);
+        include(link.isLift() ? link.lift.at : link.end);
     }
     return {glm::max(lower, least - kAround), glm::min(upper, most + kAround)};
 }
@@ -85,8 +94,11 @@ struct Stretch {
 
 class TerrainLayingOut {
   public:
-    TerrainLayingOut(const Layout& layout, const TerrainMesh& mesh, Bounds bounds, Diagnostics& diagnostics)
+    /// @param built the layout's links, of which the mesh has the faces already
+    TerrainLayingOut(const Layout& layout, const TerrainMesh& mesh, const BuiltLinks& built, Bounds bounds,
+                     Diagnostics& diagnostics)
         : layout_(layout),
+          built_(built),
           diagnostics_(diagnostics),
           ground_(std::make_shared<const Walkable>(mesh, bounds.first, bounds.second)),
           pieces_(piecesOf(*ground_)),
@@ -96,8 +108,11 @@ class TerrainLayingOut {
         if (!places_.findLevels(diagnostics_)) return nullptr;
         const std::vector<bool> used = usedPieces();
         if (layout_.levels.empty() && !lieAboveEachOther(*ground_, pieces_, used)) return nullptr;
-        std::vector<Surface> surfaces = cutIntoSurfaces(ground_, pieces_, used, reachOf(layout_));
+        const LinkGrounds links(ground_, built_);
+        std::vector<Surface> surfaces =
+            cutIntoSurfaces(ground_, pieces_, used, reachOf(layout_), links.taken());
         if (surfaces.empty()) return nullptr;
+        surfaces.insert(surfaces.end(), links.surfaces().begin(), links.surfaces().end());
         if (surfaces.size() >= kMostCharts) {
             diagnostics_.error(
                 layout_.terrain->where,
@@ -108,18 +123,33 @@ class TerrainLayingOut {
             return nullptr;
         }
         places_.keepTo(surfaces);
-        for (const Surface& surface : surfaces)
-            addChart(surface);
+        const std::size_t first_link = surfaces.size() - links.surfaces().size();
+        for (std::size_t i = 0; i < first_link; ++i)
+            addChart(surfaces[i]);
+        links.addCharts(result_->charts);
         result_->reach = reachOf(layout_);
-        layInPlane(*result_);
+        joinLinks(layout_, first_link, result_->charts, diagnostics_);
+        if (diagnostics_.hasErrors()) return nullptr;
         nameGrounds(used);
         Layout placed = layout_;
+        layLanes(placed, places_, result_->charts, diagnostics_);
+        if (diagnostics_.hasErrors()) return nullptr;
+        layInPlane(*result_);
         grounds_->home = layout_;
         placeAll(placed);
+        checkLanes(placed, *result_, diagnostics_);
         if (diagnostics_.hasErrors()) return nullptr;
-        standWalls(placed, edgesOf(surfaces));
+        standWalls(placed, links.sorted(edgesOf(surfaces), surfaces));
+        standRailings(links, first_link);
+        copyWallsIntoMargins(*result_, standing_);
         result_->grounds = grounds_;
         return result_;
+    }
+
+    /// The terrain with its links, once it is cut.
+    void keepMeshes(BuiltLinks& built) const {
+        grounds_->seen = std::make_shared<const TerrainMesh>(std::move(built.seen));
+        grounds_->walked = std::make_shared<const TerrainMesh>(std::move(built.walked));
     }
 
   private:
@@ -135,6 +165,11 @@ class TerrainLayingOut {
         for (const Road& road : layout_.roads)
             for (const glm::dvec2 point : road.centreline)
                 use(places_.spotAt(point, road.level));
+        for (const Lane& lane : layout_.traffic.lanes)
+            for (const glm::dvec2 point : lane.points)
+                use(places_.spotAt(point, lane.level));
+        for (const Zebra& crossing : layout_.traffic.crossings)
+            use(places_.spotIn(crossing.polygon, crossing.level));
         for (const Formation& formation : layout_.formations)
             for (const glm::dvec2 place : formationPlaces(formation, layout_.simulation.seed).positions)
                 use(places_.spotAt(place, formation.level));
@@ -156,7 +191,8 @@ class TerrainLayingOut {
 
     void nameGrounds(const std::vector<bool>& used) {
         for (std::size_t level = layout_.levels.size(); level-- > 0;)
-            result_->charts[chartOf(places_.levelSpots()[level])].name = layout_.levels[level].id;
+            if (!layout_.levels[level].is_landing)
+                result_->charts[chartOf(places_.levelSpots()[level])].name = layout_.levels[level].id;
         if (layout_.levels.empty())
             for (const Chart& chart : result_->charts)
                 grounds_->levels.push_back({chart.name,
@@ -166,6 +202,7 @@ class TerrainLayingOut {
                                             {}});
         for (std::size_t level = 0; level < layout_.levels.size(); ++level) {
             grounds_->levels.push_back(layout_.levels[level]);
+            if (layout_.levels[level].is_landing) continue;
             grounds_->levels.back().height = ground_->spots()[places_.levelSpots()[level]].height;
             grounds_->levels.back().floor =
                 outlineOf(*result_->charts[chartOf(places_.levelSpots()[level])].surface);
@@ -415,17 +452,26 @@ class TerrainLayingOut {
         result_->plane = moved(placed, result_->charts, result_->given);
         for (const SurfaceEdge& edge : edges) {
             Wall wall;
-            wall.id = fmt::format("edge:{}:{}", result_->charts[edge.surface].name, count++);
+            const bool is_opening = edge.beside == SurfaceEdge::Beside::opening;
+            wall.id = fmt::format("{}:{}:{}", is_opening ? "railing" : "edge",
+                                  result_->charts[edge.surface].name, count++);
             wall.points = edge.points;
-            wall.thickness = kEdge;
+            wall.thickness = edge.beside == SurfaceEdge::Beside::nothing ? kEdge : kRailing;
             wall.height = kEdgeHeight;
             wall.where = layout_.terrain->where;
-            wall.is_edge = true;
+            wall.is_edge = !is_opening;
             addWall(edge.surface, wall, {edge.low, edge.high});
             movePoints(wall.points, result_->charts[edge.surface].shift);
             result_->plane.walls.push_back(std::move(wall));
         }
-        copyWallsIntoMargins(*result_, standing_);
+    }
+
+    void standRailings(const LinkGrounds& links, std::size_t first_link) {
+        for (const PlacedRailing& railing : railingsOf(links, built_, layout_, first_link)) {
+            addWall(railing.chart, railing.wall, railing.ground);
+            result_->plane.walls.push_back(railing.wall);
+            movePoints(result_->plane.walls.back().points, result_->charts[railing.chart].shift);
+        }
     }
 
     void addWall(std::size_t chart, Wall wall, glm::dvec2 ground) {
@@ -462,6 +508,7 @@ class TerrainLayingOut {
     }
 
     const Layout& layout_;
+    const BuiltLinks& built_;
     Diagnostics& diagnostics_;
     std::shared_ptr<const Walkable> ground_;
     Pieces pieces_;
@@ -471,6 +518,24 @@ class TerrainLayingOut {
     std::vector<StandingWall> standing_;
     std::vector<std::pair<Wall, glm::dvec2>> further_;
 };
+
+/// With links, the ground is looked at twice: for where these begin and end, and with them.
+std::shared_ptr<const Charts> layOutWithLinks(const Layout& layout, const TerrainMesh& mesh,
+                                              const Bounds& bounds, Diagnostics& diagnostics) {
+    const Walkable ground(mesh, bounds.first, bounds.second);
+    const Pieces pieces = piecesOf(ground);
+    TerrainPlaces places(layout, ground, pieces);
+    if (!places.findLevels(diagnostics)) return nullptr;
+    const std::optional<Layout> raised = withLinkEnds(layout, ground, places, diagnostics);
+    if (!raised) return nullptr;
+    BuiltLinks built = buildLinks(mesh, *raised);
+    tellOfWalls(built, *raised, diagnostics);
+    if (diagnostics.hasErrors()) return nullptr;
+    TerrainLayingOut laying_out(*raised, built.walked, built, bounds, diagnostics);
+    std::shared_ptr<const Charts> charts = laying_out.run();
+    if (charts) laying_out.keepMeshes(built);
+    return charts;
+}
 
 }  // namespace
 
@@ -517,7 +582,8 @@ std::shared_ptr<const Charts> layOutTerrain(const Layout& layout, const TerrainM
         return nullptr;
     }
     try {
-        return TerrainLayingOut(layout, mesh, bounds, diagnostics).run();
+        if (!layout.links.empty()) return layOutWithLinks(layout, mesh, bounds, diagnostics);
+        return TerrainLayingOut(layout, mesh, {}, bounds, diagnostics).run();
     } catch (const std::invalid_argument& error) {
         diagnostics.error(layout.terrain->file_where,
                           fmt::format("the terrain cannot be used: {}", error.what()),

@@ -240,6 +240,7 @@ void checkTerrain(const Layout& layout, const Rebase& rebase, const WalkGeometry
 
 bool areLevelsComplete(const Layout& layout, Diagnostics& diagnostics) {
     for (const Level& level : layout.levels) {
+        if (level.is_landing) continue;
         if (layout.terrain && !level.floor.empty())
             diagnostics.error(
                 level.where,
@@ -265,9 +266,6 @@ bool areLevelsComplete(const Layout& layout, Diagnostics& diagnostics) {
         diagnostics.error(layout.terrain->where,
                           "a terrain of which people walk on one `surface` has no levels",
                           "leave out `surface`, or the levels");
-    if (layout.terrain && !layout.links.empty())
-        diagnostics.error(layout.links.front().where, "a terrain has no links: its ways are its own",
-                          "leave out the links, or the terrain");
     return !diagnostics.hasErrors();
 }
 

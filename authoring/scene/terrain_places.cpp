@@ -17,6 +17,7 @@ namespace {
 constexpr std::size_t kLeastSpots = 16;  // of ground that counts where nobody says which: a square metre
 constexpr int kBeside = 4;               // cells: so far from a place there may be its ground
 constexpr double kOffLevel = 0.5;        // m, in height
+constexpr double kLandingOff = 0.01;     // m, in height: the ground of a landing
 
 void visitAll(Destination& destination, const std::function<void(Place&)>& visit) {
     for (Place& place : destination.places)
@@ -30,6 +31,10 @@ TerrainPlaces::TerrainPlaces(const Layout& layout, const Walkable& ground, const
 
 bool TerrainPlaces::findLevels(Diagnostics& diagnostics) {
     for (const Level& level : layout_.levels) {
+        if (level.is_landing) {
+            level_spots_.push_back(spotOnLanding(level));
+            continue;
+        }
         const glm::dvec3 at = level.at.value_or(glm::dvec3(0.0));
         const auto [begin, end] = ground_.spotsOf(chartCellOf(glm::dvec2(at)));
         const std::uint32_t spot = ground_.nearestSpot(chartCellOf(glm::dvec2(at)), at.z);
@@ -48,9 +53,27 @@ bool TerrainPlaces::findLevels(Diagnostics& diagnostics) {
                 : fmt::format("there is ground at z = {}: name one of these", heights));
     }
     if (diagnostics.hasErrors()) return false;
-    for (const std::uint32_t spot : level_spots_)
-        steps_.push_back(stepsFrom(spot));
+    // Nothing of a layout names a landing.
+    for (std::size_t level = 0; level < layout_.levels.size(); ++level)
+        steps_.push_back(layout_.levels[level].is_landing ? std::vector<std::uint32_t>()
+                                                          : stepsFrom(level_spots_[level]));
     return true;
+}
+
+/// Of a landing that is built already, in its middle.
+std::uint32_t TerrainPlaces::spotOnLanding(const Level& landing) const {
+    glm::dvec2 middle(0.0);
+    for (const glm::dvec2 corner : landing.floor)
+        middle += corner / static_cast<double>(landing.floor.size());
+    const std::uint32_t spot = ground_.nearestSpot(chartCellOf(middle), landing.height);
+    const bool is_there =
+        spot != kNoSpot && std::abs(double{ground_.spots()[spot].height} - landing.height) < kLandingOff;
+    return is_there ? spot : kNoSpot;
+}
+
+std::uint32_t TerrainPlaces::onFootAt(glm::ivec2 cell, std::size_t level) const {
+    const std::uint32_t spot = spotOf(cell, level);
+    return spot != kNoSpot && steps_[level][spot] != kNoSpot ? spot : kNoSpot;
 }
 
 bool TerrainPlaces::counts(std::uint32_t spot) const {

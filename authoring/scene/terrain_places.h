@@ -23,6 +23,10 @@ class TerrainPlaces {
 
     /// Finds the ground of each level. @returns whether all have one; else it is told
     bool findLevels(Diagnostics& diagnostics);
+    /// The spot in a cell that people get to on foot from a level's place; kNoSpot where they get to none.
+    std::uint32_t onFootAt(glm::ivec2 cell, std::size_t level) const;
+    /// How many cells that is.
+    std::uint32_t stepsTo(std::uint32_t spot, std::size_t level) const { return steps_[level][spot]; }
     /// The spot at a place, or beside it; kNoSpot where there is none.
     std::uint32_t spotAt(glm::dvec2 place, std::size_t level) const;
     /// In the middle of an outline, as far as there is ground.
@@ -35,6 +39,7 @@ class TerrainPlaces {
 
   private:
     std::uint32_t spotOf(glm::ivec2 cell, std::size_t level) const;
+    std::uint32_t spotOnLanding(const Level& landing) const;
     bool counts(std::uint32_t spot) const;
     std::vector<std::uint32_t> stepsFrom(std::uint32_t spot) const;
 

@@ -58,7 +58,9 @@ std::vector<float> slopeCosts(const Terrain& terrain, const ChartMap& map, const
     const SlopeCosts costs(motion);
     std::vector<float> result(map.cells.size(), 1.0f);
     for (std::size_t i = 0; i < map.cells.size(); ++i) {
-        if ((map.cells[i].charts >> 8 & gpu::NO_CHART) == gpu::NO_CHART) continue;
+        const std::uint32_t owner = map.cells[i].charts >> 8 & gpu::NO_CHART;
+        // Links cost what they cost as a whole.
+        if (owner == gpu::NO_CHART || map.is_link[owner]) continue;
         const glm::vec2 at = map.grid.minimum +
                              (glm::vec2(i % map.grid.width, i / map.grid.width) + 0.5f) * map.grid.cell_size;
         result[i] = costs.of(glm::length(terrain.slopeAt(at)), terrain.stepsAt(at) > 0.5f);

@@ -230,9 +230,10 @@ bool keepsToRoads(const Layout& layout) {
 bool isWithoutTraffic(const Layout& layout, Diagnostics& diagnostics) {
     const Traffic& traffic = layout.traffic;
     if (traffic.empty()) return true;
-    diagnostics.error(traffic.lanes.empty() ? traffic.crossings.front().where : traffic.lanes.front().where,
-                      "layouts with `levels` have no lanes or crossings yet",
-                      "make the street a layout of its own");
+    diagnostics.error(
+        traffic.lanes.empty() ? traffic.crossings.front().where : traffic.lanes.front().where,
+        "layouts with `levels` have lanes and crossings only on a `terrain`",
+        "make the street a layout of its own, or the whole a terrain of which `levels` name grounds");
     return false;
 }
 

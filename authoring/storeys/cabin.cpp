@@ -55,6 +55,10 @@ glm::dvec2 outOfCabin(const Lift& lift, std::size_t stop) {
     return glm::round(exact * 1.0e12) / 1.0e12;  // right angles are exact
 }
 
+double heightOfStop(const Layout& layout, const Lift& lift, std::size_t stop) {
+    return lift.heights.empty() ? layout.levels[lift.levels[stop]].height : lift.heights[stop];
+}
+
 double travelTime(const Lift& lift, double rise) {
     const double way = std::abs(rise), acceleration = gpu::LIFT_ACCELERATION;
     const double needed = lift.speed * lift.speed / acceleration;

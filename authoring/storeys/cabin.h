@@ -25,6 +25,9 @@ std::uint32_t capacityOf(const Layout& layout, const Lift& lift);
 /// Out of the cabin at one of its stops: a unit vector.
 glm::dvec2 outOfCabin(const Lift& lift, std::size_t stop);
 
+/// m: of the ground before its doors there.
+double heightOfStop(const Layout& layout, const Lift& lift, std::size_t stop);
+
 /// s, from one height to another: it sets out and comes to rest evenly.
 double travelTime(const Lift& lift, double rise);
 

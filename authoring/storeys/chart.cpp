@@ -37,8 +37,8 @@ Chart linkChart(const Layout& layout, std::size_t index) {
     chart.link.length = glm::distance(link.begin, link.end);
     chart.link.along = (link.end - link.begin) / chart.link.length;
     chart.link.half_width = halfWidthOf(link);
-    chart.link.low = layout.levels[link.from].height;
-    chart.link.high = layout.levels[link.to].height;
+    chart.link.low = link.heights ? link.heights->x : layout.levels[link.from].height;
+    chart.link.high = link.heights ? link.heights->y : layout.levels[link.to].height;
     return chart;
 }
 
@@ -59,16 +59,16 @@ Chart cabinChart(const Layout& layout, std::size_t index, std::size_t stop) {
     chart.link.along = -outward;
     chart.link.length = lift.size.y;
     chart.link.half_width = 0.5 * lift.size.x;
-    chart.link.low = chart.link.high = layout.levels[lift.levels[stop]].height;
+    chart.link.low = chart.link.high = heightOfStop(layout, lift, stop);
     return chart;
 }
 
 /// Floors are open where a lift goes through them.
 bool goesThrough(const Lift& lift, const Layout& layout, double height) {
-    double low = layout.levels[lift.levels.front()].height, high = low;
-    for (const std::size_t level : lift.levels) {
-        low = std::min(low, layout.levels[level].height);
-        high = std::max(high, layout.levels[level].height);
+    double low = heightOfStop(layout, lift, 0), high = low;
+    for (std::size_t stop = 1; stop < lift.levels.size(); ++stop) {
+        low = std::min(low, heightOfStop(layout, lift, stop));
+        high = std::max(high, heightOfStop(layout, lift, stop));
     }
     return height > low - kHeadroom && height < high + kHeadroom;
 }

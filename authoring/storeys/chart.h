@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <glm/vec2.hpp>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "authoring/layout.h"
@@ -48,6 +50,8 @@ struct Chart {
     double half_door = 0.0;  ///< m
     std::shared_ptr<const Surface> surface = {};  ///< of a part of a terrain
     glm::dvec2 shift{0.0};                        ///< plane = home + shift, m
+    /// Of the plane, lower left and upper right at home: nothing: as much as people can stand on.
+    std::optional<std::pair<glm::dvec2, glm::dvec2>> room = {};
 
     bool contains(glm::dvec2 home) const;
     double heightAt(glm::dvec2 home) const;

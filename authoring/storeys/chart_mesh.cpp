@@ -7,6 +7,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "authoring/storeys/cabin.h"
+
 namespace throng::authoring {
 namespace {
 
@@ -211,8 +213,8 @@ void addBar(glm::dvec3 low, glm::dvec3 high, const Footprint& link, MeshMaker& m
 void addShaft(const Chart& lowest, const Lift& lift, const Layout& layout, MeshMaker& maker) {
     constexpr double kBar = 0.1, kRing = 2.3, kTop = 2.9;  // m
     const Footprint& link = lowest.link;
-    const double half = link.half_width, low = layout.levels[lift.levels.front()].height,
-                 high = layout.levels[lift.levels.back()].height + kTop;
+    const double half = link.half_width, low = heightOfStop(layout, lift, 0),
+                 high = heightOfStop(layout, lift, lift.levels.size() - 1) + kTop;
     for (const double x : {-kBar, link.length})
         for (const double y : {-half - kBar, half})
             addBar({x, y, low - kSlab}, {x + kBar, y + kBar, high}, link, maker);
@@ -222,8 +224,8 @@ void addShaft(const Chart& lowest, const Lift& lift, const Layout& layout, MeshM
         for (const double y : {-half - kBar, half})
             addBar({0.0, y, z}, {link.length, y + kBar, z + kBar}, link, maker);
     };
-    for (const std::size_t level : lift.levels)
-        ring(layout.levels[level].height + kRing);
+    for (std::size_t stop = 0; stop < lift.levels.size(); ++stop)
+        ring(heightOfStop(layout, lift, stop) + kRing);
     ring(high - kBar);
 }
 

@@ -160,13 +160,14 @@ void ChartRaster::leaveOutUnseen(const std::vector<Chart>& charts, const std::ve
     for (int y = 0; y < size_.y; ++y)
         for (int x = 0; x < size_.x; ++x) {
             const glm::ivec2 cell = first_ + glm::ivec2(x, y);
-            if (ownerAt(cell) != own) continue;  // who is over a seam already
+            const std::uint32_t owner = ownerAt(cell);  // another chart's: for who is over a seam already
+            if (owner == gpu::NO_CHART) continue;
             std::uint32_t& images = images_[indexOf(cell)];
             std::uint32_t left = gpu::NO_IMAGES;
             for (std::uint32_t place = 0; place < imageCount(images); ++place) {
                 const std::uint32_t there = imageIn(images, place), seen = rasters[there].ownerAt(cell);
-                if ((seen == gpu::NO_CHART || seen == own) && !isAlongside(charts[there], cell))
-                    left = withImage(left, there);
+                const bool is_alongside = owner == own && isAlongside(charts[there], cell);
+                if ((seen == gpu::NO_CHART || seen == owner) && !is_alongside) left = withImage(left, there);
             }
             images = left;
         }

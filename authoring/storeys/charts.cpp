@@ -8,7 +8,7 @@
 #include <glm/common.hpp>
 #include <numeric>
 
-#include "authoring/storeys/cabin.h"
+#include "authoring/storeys/before_ends.h"
 #include "authoring/storeys/chart_mesh.h"
 #include "authoring/storeys/given_ways.h"
 #include "authoring/storeys/plane.h"
@@ -20,7 +20,6 @@ namespace {
 
 constexpr double kRailingHeight = 1.1;  // m
 constexpr double kShaftHeight = 2.3;    // m, of a lift's sides at each of its stops
-constexpr double kBeforeDoors = 0.8;    // m: what stays free before a lift
 
 class LayingOut {
   public:
@@ -147,34 +146,13 @@ class LayingOut {
                             link.id, level, before.x, before.y),
                 "turn its `doors`, list the level under `opposite`, or move it");
         for (const Wall& wall : layout_.walls)
-            if (wall.level == cabin.link_from && standsBefore(wall, cabin))
+            if (wall.level == cabin.link_from && standsBefore(wall, cabin, false))
                 diagnostics_.error(link.where,
                                    fmt::format("the doors of lift `{}` open into wall `{}` at level `{}`",
                                                link.id, wall.id, level),
                                    fmt::format("leave {:.1f} m before them free", kBeforeDoors));
         if (cabin.stop > 0) return;
-        const std::uint32_t fit = spotsIn(layout_, link.lift).count();
-        if (fit == 0 || link.lift.capacity.value_or(1) > fit)
-            diagnostics_.error(
-                link.where,
-                fmt::format("the cabin of lift `{}`, {:.2f} x {:.2f} m, has room for {} of the layout's "
-                            "people, not for {}",
-                            link.id, link.lift.size.x, link.lift.size.y, fit, link.lift.capacity.value_or(1)),
-                "enlarge its `size`, or ask for less `capacity`");
-    }
-
-    /// Whether a wall stands where people step out of a cabin.
-    static bool standsBefore(const Wall& wall, const Chart& cabin) {
-        constexpr double kStep = 0.1;  // m
-        const int steps = static_cast<int>(std::lround(kBeforeDoors / kStep));
-        for (int step = 1; step <= steps; ++step)
-            for (const double aside : {-0.9, -0.5, 0.0, 0.5, 0.9}) {
-                const glm::dvec2 at = cabin.link.at(-kStep * step, aside * cabin.half_door);
-                const double away = wall.closed ? distanceToPolygon(wall.points, at)
-                                                : distanceToPieces(wall.points, wall.points.size() - 1, at);
-                if (away < 0.5 * (kStep + (wall.closed ? 0.0 : wall.thickness))) return true;
-            }
-        return false;
+        checkRoomInCabin(layout_, link, diagnostics_);
     }
 
     void addWall(std::size_t chart, Wall wall) {

@@ -54,6 +54,8 @@ struct TerrainGrounds {
     Layout home;                             ///< the layout, everything on one of these levels
     std::vector<double> attraction_heights;  ///< m, of the ground there
     TerrainFindings findings;
+    /// With links and their openings, as it is seen and as people get on it; null where there are none.
+    std::shared_ptr<const TerrainMesh> seen = {}, walked = {};
 };
 
 /// By group of given people, way and point of it: its chart.

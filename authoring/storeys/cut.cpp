@@ -142,6 +142,8 @@ void drawBack(const Walkable& ground, const Spots& over, double margin, Part& pa
     }
 }
 
+}  // namespace
+
 Surface surfaceOf(const std::shared_ptr<const Walkable>& ground, const Spots& spots) {
     Surface surface;
     surface.ground = ground;
@@ -161,8 +163,6 @@ Surface surfaceOf(const std::shared_ptr<const Walkable>& ground, const Spots& sp
     }
     return surface;
 }
-
-}  // namespace
 
 Pieces piecesOf(const Walkable& ground) {
     Pieces pieces;
@@ -193,10 +193,11 @@ bool lieAboveEachOther(const Walkable& ground, const Pieces& pieces, const std::
 }
 
 std::vector<Surface> cutIntoSurfaces(const std::shared_ptr<const Walkable>& ground, const Pieces& pieces,
-                                     const std::vector<bool>& used, double margin) {
+                                     const std::vector<bool>& used, double margin,
+                                     const std::vector<bool>& taken) {
     std::vector<bool> is_left(ground->spots().size(), false);
     for (std::uint32_t spot = 0; spot < is_left.size(); ++spot)
-        is_left[spot] = used[pieces.piece_of[spot]];
+        is_left[spot] = used[pieces.piece_of[spot]] && (taken.empty() || !taken[spot]);
     std::vector<Surface> surfaces;
     Part part(*ground);
     for (;;) {

@@ -17,23 +17,27 @@ double upwards(double value) {
     return std::ceil(value / double{gpu::SHIFT_STEP}) * double{gpu::SHIFT_STEP};
 }
 
+std::pair<glm::dvec2, glm::dvec2> roomOf(const Chart& chart) {
+    return chart.room ? *chart.room : chart.bounds();
+}
+
 /// Side by side in rows, the first chart where it is: of two margins and a little more between any two, so
 /// that nobody senses from one into the other.
 void shiftCharts(std::vector<Chart>& charts, double reach) {
     const double margin = reach + 2.0;
     double area = 0.0, widest = 0.0;
     for (const Chart& chart : charts) {
-        const auto [lower, upper] = chart.bounds();
+        const auto [lower, upper] = roomOf(chart);
         const glm::dvec2 size = upper - lower + 2.0 * margin;
         area += size.x * size.y;
         widest = std::max(widest, size.x);
     }
     const double row_width = std::max(widest, std::sqrt(area));
-    const auto [origin, first_upper] = charts.front().bounds();
+    const auto [origin, first_upper] = roomOf(charts.front());
     glm::dvec2 corner(origin.x - margin, origin.y - margin);
     double row_height = 0.0, x = corner.x, y = corner.y;
     for (Chart& chart : charts) {
-        const auto [lower, upper] = chart.bounds();
+        const auto [lower, upper] = roomOf(chart);
         const glm::dvec2 size = upper - lower + 2.0 * margin;
         if (x > corner.x && x + size.x > corner.x + row_width) {
             x = corner.x;
@@ -111,6 +115,13 @@ Layout moved(const Layout& layout, const std::vector<Chart>& charts, const Given
         }
     for (Wall& wall : plane.walls)
         movePoints(wall.points, charts[wall.level].shift);
+    for (Lane& lane : plane.traffic.lanes) {
+        movePoints(lane.points, charts[lane.level].shift);
+        for (LaneStop& stop : lane.stops)
+            stop.at += charts[lane.level].shift;
+    }
+    for (Zebra& crossing : plane.traffic.crossings)
+        movePoints(crossing.polygon, charts[crossing.level].shift);
     for (Flow& flow : plane.flows)
         for (BehaviourState& stop : flow.via) {
             const glm::dvec2 shift = charts[levelOf(layout, stop.to.places.front())].shift;

@@ -13,6 +13,9 @@ struct SurfaceEdge {
     std::size_t surface = 0;
     std::vector<glm::dvec2> points;  ///< home; the ground is on their left
     double low = 0.0, high = 0.0;    ///< m, of the ground along it
+    /// Of links that are built onto a terrain: whether its ground is beside one, or has an opening over one.
+    enum class Beside { nothing, railing, opening };
+    Beside beside = Beside::nothing;
 };
 
 /// Of all surfaces; what goes on from one to another over a seam ends there on the one and begins on the

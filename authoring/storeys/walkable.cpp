@@ -87,6 +87,15 @@ const std::vector<float>& Walkable::heightsAt(glm::vec2 at) const {
     return heights_;
 }
 
+std::optional<double> Walkable::groundNear(glm::dvec2 place, double height) const {
+    std::optional<double> nearest;
+    for (const float each : heightsAt(glm::vec2(place - origin_)))
+        if (const double away = std::abs(double{each} - height);
+            away < double{kStep} && (!nearest || away < std::abs(*nearest - height)))
+            nearest = double{each};
+    return nearest;
+}
+
 /// Anything upright between two places, at a body's height.
 bool Walkable::isBlocked(const Standing& from, const Standing& to) const {
     bool blocked = false;

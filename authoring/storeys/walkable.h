@@ -41,6 +41,9 @@ class Walkable {
     /// The cell's spot that is nearest in height; kNoSpot where it has none.
     std::uint32_t nearestSpot(glm::ivec2 cell, double height) const;
 
+    /// The ground at a place itself, where it is within a step of a height, m.
+    std::optional<double> groundNear(glm::dvec2 place, double height) const;
+
     glm::ivec2 first() const { return first_; }
     glm::ivec2 size() const { return size_; }
 

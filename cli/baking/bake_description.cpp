@@ -183,6 +183,11 @@ void describeCabins(const LoadedLayout& loaded, recording::BakeDescription& bake
         bake.lifts[i].lift.capacity = lifts.plans.at(i).capacity;
 }
 
+void addLinks(const std::vector<authoring::Link>& links, recording::BakeDescription& bake) {
+    for (const authoring::Link& link : links)
+        (link.isLift() ? bake.lifts : bake.links).push_back(link);
+}
+
 /// Of a terrain that is cut: it is the ground as it is, and has names.
 void describeGrounds(const LoadedLayout& loaded, recording::BakeDescription& bake) {
     const authoring::Charts& charts = *loaded.scene.charts;
@@ -190,9 +195,21 @@ void describeGrounds(const LoadedLayout& loaded, recording::BakeDescription& bak
     bake.roads = charts.grounds->home.roads;
     bake.areas = charts.grounds->home.areas;
     bake.patches = charts.grounds->home.patches;
-    bake.terrain =
-        recording::BakeTerrain{loaded.terrain,      loaded.scene.terrain,      loaded.layout.terrain->file,
-                               loaded.terrain_hash, charts.ground_along_walls, true};
+    for (const gpu::Vehicle& vehicle : loaded.scene.traffic.vehicles) {
+        constexpr double kWithin = 0.1;  // m
+        const authoring::Chart& chart = charts.charts[charts.plane.traffic.lanes[vehicle.lane].level];
+        const auto [lower, upper] = chart.bounds();
+        const glm::dvec2 move = chart.shift - loaded.scene.origin;
+        bake.vehicle_grounds.push_back({chart.shift, lower + move + kWithin, upper + move - kWithin});
+    }
+    addLinks(charts.plane.links, bake);
+    describeCabins(loaded, bake);
+    bake.terrain = recording::BakeTerrain{charts.grounds->seen ? charts.grounds->seen : loaded.terrain,
+                                          loaded.scene.terrain,
+                                          loaded.layout.terrain->file,
+                                          loaded.terrain_hash,
+                                          charts.ground_along_walls,
+                                          true};
 }
 
 /// Of a layout with levels: its floors and links are the ground, and end in railings.
@@ -216,8 +233,7 @@ void describeCharts(const LoadedLayout& loaded, recording::BakeDescription& bake
         return;
     }
     bake.levels = loaded.layout.levels;
-    for (const authoring::Link& link : loaded.layout.links)
-        (link.isLift() ? bake.lifts : bake.links).push_back(link);
+    addLinks(loaded.layout.links, bake);
     describeCabins(loaded, bake);
     bake.terrain =
         recording::BakeTerrain{std::shared_ptr<const authoring::TerrainMesh>(scene.charts, &charts.home_mesh),

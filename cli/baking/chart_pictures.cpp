@@ -30,11 +30,11 @@ std::pair<double, double> heightsOf(const authoring::Chart& chart) {
     return std::minmax({chart.link.low, chart.link.high});
 }
 
-Picture pictureOf(const authoring::Chart& chart, const authoring::Layout& layout, double margin) {
-    const std::string level = chart.is_link ? layout.levels.at(chart.link_from).id : chart.name;
+Picture pictureOf(const authoring::Chart& chart, const std::vector<authoring::Chart>& charts, double margin) {
+    const std::string level = chart.is_link ? charts.at(chart.link_from).name : chart.name;
     Picture picture;
     picture.name = chart.is_cabin ? fmt::format("{} at {}", chart.name, level) : chart.name;
-    picture.kind = chart.surface ? "ground" : chart.is_cabin ? "lift" : chart.is_link ? "link" : "level";
+    picture.kind = chart.is_cabin ? "lift" : chart.is_link ? "link" : chart.surface ? "ground" : "level";
     picture.level = level;
     const auto [lower, upper] = chart.bounds();
     picture.lower = lower - margin;
@@ -63,7 +63,7 @@ void describePictures(const LoadedLayout& loaded, recording::BakeDescription& ba
     const double margin = std::max(loaded.layout.simulation.tile_radius, double{loaded.scene.largest_radius});
     std::set<std::string> taken;
     for (const authoring::Chart& chart : loaded.scene.charts->charts) {
-        Picture picture = pictureOf(chart, loaded.layout, margin);
+        Picture picture = pictureOf(chart, loaded.scene.charts->charts, margin);
         const std::string name = picture.name;
         for (int number = 2; !taken.insert(picture.name).second; ++number)
             picture.name = fmt::format("{} ({})", name, number);

@@ -33,6 +33,8 @@ vec2 downhill(float here, vec4 beside) {
     return size > 1.0e-6 ? slope / size : vec2(0.0);
 }
 
+const float MOST_SLOPE_COST = 2.5;  // stairs: 2.0; more is due to walls beside the way
+
 /// Metres of free walking that leaving a cell to each of its sides is worth. Even through a jam that stands, one gets
 /// some time. Who may choose between several places takes a jam for what it is: a door that hundreds wait for is worth
 /// a walk to the next one. What counts then is how fast the crowd gets nearer to any of the places; or people would
@@ -43,6 +45,10 @@ vec4 costsOfLeaving(uint cell, GroundCell ground_here, bool choice, float here, 
     if (crowd.density > ROUTES_ROUND_JAMS_THIN) {
         vec4 along = choice ? vec4(dot(crowd.velocity, downhill(here, beside)))
                             : vec4(-crowd.velocity.x, crowd.velocity.x, -crowd.velocity.y, crowd.velocity.y);
+#ifdef CHARTS
+        // A crowd that goes up stairs as fast as one does there is no jam: what the ground costs, routes know already.
+        along *= min(ground_here.cost, MOST_SLOPE_COST);
+#endif
         float slowest = choice ? ROUTES_ROUND_JAMS_SLOWEST_WITH_CHOICE : ROUTES_ROUND_JAMS_SLOWEST;
         vec4 with_crowd = clamp(along / ROUTES_ROUND_JAMS_FREE_SPEED, slowest, 1.0);
         cost /= mix(vec4(1.0), with_crowd,
