@@ -13,7 +13,7 @@
 // and cell_runs.glsl, shaders/shared/body_shape.glsl, shoulders.glsl, nearest_first.glsl and apart_direction.glsl.
 
 /// m: whoever is further apart than this after the first round does not touch in the others.
-const float NEAR_ENOUGH = 2.0e-1;
+const float NEAR_ENOUGH = 3.0e-1;
 const float FAR_APART = 1.0e5;
 
 /// What others make of somebody in a round: it is moved, turned, by how many.
