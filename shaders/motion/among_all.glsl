@@ -9,37 +9,36 @@
 uint neighbourKey(uint slot, uint nth) { return neighbours[nth * slot_capacity + slot]; }
 
 #ifdef BODIES
-/// Whether somebody has room to stride from those ahead: it has a body, and everybody sensed goes its way.
-bool strides(Walker walker, uint slot, vec2 way, float speed) {
-    bool peaceful = ROOM_TO_STRIDE_ENABLED && walker.half_axis != 0.0 && speed > STANDING_SPEED;
+/// m/s: how fast somebody with a body wants to stride behind those ahead, if it may.
+/// @param strides receives whether it does: everybody sensed goes its way
+float paceStridingAmongAll(Body self, Walker walker, vec2 way, float speed, uint slot, out bool strides) {
+    strides = ROOM_TO_STRIDE_ENABLED && walker.half_axis != 0.0 && speed > STANDING_SPEED;
+    float pace = speed;
+    vec2 own = extentsAlong(way, self.radius, axis_of_self);
     for (uint i = 0u; i < neighbour_counts[slot]; ++i) {
         uint key = neighbourKey(slot, i);
-        if ((key & NEIGHBOUR_IS_WALL) == 0u)
-            peaceful = peaceful && isPeaceful(likeness(way, preferred_velocities[key]));
+        if ((key & NEIGHBOUR_IS_WALL) != 0u) continue;
+        vec2 wish = preferred_velocities[key];
+        float alike = likeness(way, wish);
+        strides = strides && isPeaceful(alike);
+        vec2 extents = own + extentsAlong(way, bodies[key].radius, vec2(walkers[key].axis_x, walkers[key].axis_y));
+        pace = min(pace, paceStriding(way, speed, bodies[key].position - self.position, extents,
+                                      bodies[key].velocity - self.velocity, wish, alike));
     }
-    return peaceful;
+    return pace;
 }
 #endif
 
 /// m/s: how fast one wants to walk behind those ahead.
-/// @param strides whether with room to stride instead of with `headway`
-float paceAmongAll(Body self, uint slot, vec2 way, float speed, float headway, bool strides) {
+float paceAmongAll(Body self, uint slot, vec2 way, float speed, float headway) {
     if (headway <= HEADWAY_LEAST) return speed;
     float pace = speed;
     for (uint i = 0u; i < neighbour_counts[slot]; ++i) {
         uint key = neighbourKey(slot, i);
         if ((key & NEIGHBOUR_IS_WALL) != 0u) continue;
         Body other = bodies[key];
-#ifdef BODIES
-        if (strides) {
-            vec2 extents = extentsAlong(way, self, slot, other, key);
-            pace = min(pace, paceStriding(way, speed, other.position - self.position, extents,
-                                          other.velocity - self.velocity, preferred_velocities[key]));
-            continue;
-        }
-#endif
         pace = min(pace, paceBehind(way, speed, headway, other.position - self.position,
-                                    reachBetween(self, slot, other, key), preferred_velocities[key]));
+                                    reachBetween(self, other, key), preferred_velocities[key]));
     }
     return pace;
 }
@@ -59,7 +58,7 @@ Surroundings lookAround(Body self, uint slot, vec2 wish, Manners manners) {
         Body other = bodies[key];
         vec2 its_wish = preferred_velocities[key];
         around.room += roomFor(manners, self.position - other.position, self.velocity - other.velocity,
-                               wish - other.velocity, reachBetween(self, slot, other, key), its_wish);
+                               wish - other.velocity, reachBetween(self, other, key), its_wish);
         around.in_peace = around.in_peace && isPeaceful(likeness(manners.way, its_wish));
         around.in_traffic = around.in_traffic || length(its_wish) > STANDING_SPEED;
     }

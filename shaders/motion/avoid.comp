@@ -104,6 +104,9 @@ void main() {
     if (slot >= live_count || isImage(walkers[slot].flags)) return;
     Body self = bodies[slot];
     Walker walker = walkers[slot];
+#ifdef BODIES
+    axis_of_self = vec2(walker.axis_x, walker.axis_y);
+#endif
 #ifdef DOORS
     if ((walker.flags & WALKER_IN_DOORS) != 0u) walker.party_size = 1u;  // nobody waits for company in a door
 #endif
@@ -127,14 +130,15 @@ void main() {
 #ifdef BELTS
     kept = max(kept, headwayBeforeBelt(walker.flags));
 #endif
-    bool has_stride = false;
+    float pace = paceAmongAll(self, slot, way, speed, kept);
+    bool strides = false;
 #ifdef BODIES
-    if (!climbs && kept <= 0.0 && strides(walker, slot, way, speed)) {
-        has_stride = true;
-        headway = kept = ROOM_TO_STRIDE_HEADWAY;
+    if (!climbs && kept <= 0.0) {
+        float striding = paceStridingAmongAll(self, walker, way, speed, slot, strides);
+        if (strides) pace = striding;
+        if (strides) headway = ROOM_TO_STRIDE_HEADWAY;
     }
 #endif
-    float pace = paceAmongAll(self, slot, way, speed, kept, has_stride);
     float impatience = impatienceOf(walker.nervousness);
     if (climbs) impatience = 0.0;
 #ifdef BELTS
@@ -147,7 +151,7 @@ void main() {
                               freedomAt(pace / max(speed, STANDING_SPEED)));
     Surroundings around = lookAround(self, slot, wish, manners);
     if (HEADWAY_IN_PEACE_ENABLED && around.in_peace && headway <= 0.0)
-        pace = min(pace, paceAmongAll(self, slot, way, speed, headwayInPeace(impatience), false));
+        pace = min(pace, paceAmongAll(self, slot, way, speed, headwayInPeace(impatience)));
     vec2 acceleration = drive(wish, speed, pace, self.velocity) + around.room * shareOfRoom(speed) +
                         company(self, walker, way, speed);
     vec2 wanted = self.velocity + acceleration * parameters.decision_seconds;
@@ -164,7 +168,7 @@ void main() {
 #ifdef TRAFFIC
     hard += vehiclesAhead(self, slot, hard, (walker.flags & WALKER_IN_DOORS) != 0u);
 #endif
-    if (has_stride) touch_words[slot] &= ~TOUCH_IN_NARROWS;  // and takes no turns
+    if (strides) touch_words[slot] &= ~TOUCH_IN_NARROWS;  // and takes no turns
     int count = hard + kerbBeside(self, walker, hard);
     vec2 velocity = nearestAllowed(hard, count, self.maximum_speed, wanted);
     velocity = limitChange(legs, velocity, parameters.maximum_acceleration * parameters.decision_seconds);

@@ -13,12 +13,25 @@ float halfWidth(Body body, uint slot, vec2 direction) {
 #endif
 }
 
-/// m: how far apart the middles of two bodies are that touch each other along the line between them.
-float reachBetween(Body self, uint slot, Body other, uint other_slot) {
+#ifdef BODIES
+vec2 axis_of_self = vec2(0.0);  // as in the walker of the invocation's own slot: looked up once
+#endif
+
+/// m: the same of oneself.
+float halfWidthOfSelf(Body self, vec2 direction) {
+#ifdef BODIES
+    return thicknessOf(self.radius, axis_of_self) + abs(dot(axis_of_self, direction));
+#else
+    return self.radius;
+#endif
+}
+
+/// m: how far apart the middles of oneself and another are who touch each other along the line between them.
+float reachBetween(Body self, Body other, uint other_slot) {
 #ifdef BODIES
     vec2 offset = self.position - other.position;
     vec2 direction = offset / max(length(offset), 1.0e-6);
-    return halfWidth(self, slot, direction) + halfWidth(other, other_slot, direction);
+    return halfWidthOfSelf(self, direction) + halfWidth(other, other_slot, direction);
 #else
     return self.radius + other.radius;
 #endif

@@ -13,7 +13,7 @@ vec3 wallConstraint(Body self, uint slot, WallSegment wall, float horizon) {
     vec2 offset = nearestOnSegment(self.position, wall.a, wall.b) - self.position;
     float size = length(offset);
     vec2 normal = size > 1.0e-6 ? -offset / size : normalize(vec2(wall.a.y - wall.b.y, wall.b.x - wall.a.x));
-    float gap = size - halfWidth(self, slot, normal) - wall.half_thickness + WALLS_AHEAD_SLACK;
+    float gap = size - halfWidthOfSelf(self, normal) - wall.half_thickness + WALLS_AHEAD_SLACK;
     return vec3(normal, -gap / (gap > 0.0 ? horizon : WALLS_AHEAD_WAY_OUT));
 }
 

@@ -11,7 +11,7 @@ bool somebodyWantsPast(Body self, uint slot) {
         if (walkers[key].nervousness < AT_REST_NOTICES) continue;
         vec2 offset = self.position - bodies[key].position;
         if (dot(offset, preferred_velocities[key]) <= 0.0) continue;
-        if (length(offset) < reachBetween(self, slot, bodies[key], key) + AT_REST_GIVES_WAY) return true;
+        if (length(offset) < reachBetween(self, bodies[key], key) + AT_REST_GIVES_WAY) return true;
     }
     return false;
 }

@@ -50,6 +50,21 @@ class BodiesTest : public GpuTest {
             simulation.step();
         return bodyOf(simulation, scene, 0).middle.x > 1.0;
     }
+    /// m: how far somebody at 1.2 m/s walks behind another at half a metre per second, whom it cannot pass.
+    double follows(double headway, double gap) {
+        authoring::Scene scene = emptyScene({-2, -2}, {22, 2});
+        addBody(scene, {1.5, 0}, {21, 0}, 0.0f).preferred_speed = 0.5f;
+        addBody(scene, {0, 0}, {21, 0}, 0.0f);
+        for (const float side : {0.45f, -0.45f})
+            addWall(scene, {-1, side}, {22, side}, 0.1f);
+        setRule(scene, "room_to_stride", "headway", headway);
+        setRule(scene, "room_to_stride", "gap", gap);
+        sim::Simulation simulation(scene, library);
+        for (int step = 0; step < 20 * 48; ++step)
+            simulation.step();
+        const auto states = simulation.parts().buffers.states.download<gpu::AgentState>(2);
+        return states[0].position.x - states[1].position.x;
+    }
 };
 
 TEST_F(BodiesTest, NobodyStaysInAnybodyHoweverTheyAreTurned) {
@@ -82,6 +97,11 @@ TEST_F(BodiesTest, WithoutTurningShouldersDoNotFitThroughNarrowDoors) {
     for (int step = 0; step < 6 * 48; ++step)
         simulation.step();
     EXPECT_LT(bodyOf(simulation, scene, 0).middle.x, 0.1);
+}
+
+TEST_F(BodiesTest, WhoFollowsLeavesRoomToStrideBehindAChest) {
+    EXPECT_NEAR(follows(0.4, 0.08), kDepth + 0.08 + 0.4 * 0.5, 0.03);
+    EXPECT_NEAR(follows(0.8, 0.2), kDepth + 0.2 + 0.8 * 0.5, 0.03);
 }
 
 }  // namespace

@@ -143,8 +143,8 @@ std::vector<Walking> afterARound(const std::vector<Walking>& people, const Rules
 class BodyContactTest : public GpuTest {
   protected:
     /// Discs, people, and prams: chests in steps of 15 degrees, so that many are abreast.
-    static authoring::Scene crowd(std::uint32_t count) {
-        authoring::Scene scene = uniformScene(count, 0.42f, count);
+    static authoring::Scene crowd(std::uint32_t count, float spacing = 0.42f) {
+        authoring::Scene scene = uniformScene(count, spacing, count);
         std::mt19937 random(count);
         std::uniform_real_distribution<float> size(0.8f, 1.2f);
         for (gpu::Person& person : scene.people) {
@@ -171,6 +171,48 @@ class BodyContactTest : public GpuTest {
         }
         return people;
     }
+    static std::vector<glm::vec4> targetsOf(const std::vector<Walking>& people) {
+        std::vector<glm::vec4> targets;
+        for (const Walking& each : people)
+            targets.emplace_back(each.place.x, each.place.y, each.axis.x, each.axis.y);
+        return targets;
+    }
+    /// Senses everybody where the scene has it.
+    static void setOut(sim::Simulation& simulation, const authoring::Scene& scene) {
+        sim::Simulation::Parts& parts = simulation.parts();
+        simulation.step();  // what contact reads besides, such as wishes
+        parts.buffers.states.upload(statesOf(scene));
+        parts.buffers.chests.upload(chestsOf(scene));
+        parts.cells.run();
+        parts.diagram.build(parts.extent);
+        parts.sensing.run();
+    }
+    /// How far apart some rounds end, the first of which notes who is near for the others, and as many first
+    /// rounds, m. @param pushed receives how far they push anybody
+    double apartAfterRounds(std::uint32_t count, float spacing, int rounds, double& pushed) {
+        authoring::Scene scene = crowd(count, spacing);
+        setRule(scene, "contact_momentum", "enabled", 0.0);  // no round knows of those before
+        sim::Simulation simulation(scene, library);
+        sim::Simulation::Parts& parts = simulation.parts();
+        setOut(simulation, scene);
+        std::vector<glm::vec4> start = targetsOf(peopleOf(parts, scene)), one_by_one = start;
+        const auto after = [&](const std::vector<glm::vec4>& targets, int iterations) {
+            parts.buffers.targets.upload(targets);
+            parts.buffers.targets_after.upload(targets);
+            sim::Contacts contacts(library, parts.buffers, iterations, parts.settings.motion);
+            contacts.run();
+            return contacts.result().download<glm::vec4>(targets.size());
+        };
+        for (int round = 0; round < rounds; ++round)
+            one_by_one = after(one_by_one, 1);
+        const std::vector<glm::vec4> at_once = after(start, rounds);
+        double worst = 0.0;
+        for (std::size_t i = 0; i < start.size(); ++i) {
+            worst = std::max(worst, double{glm::distance(at_once[i], one_by_one[i])});
+            pushed = std::max(pushed, double{glm::distance(at_once[i], start[i])});
+        }
+        return worst;
+    }
     struct Outcome {
         std::size_t pushed = 0, turned = 0;
         double worst = 0.0;  // m, of places and of the ends of segments
@@ -181,17 +223,10 @@ class BodyContactTest : public GpuTest {
         const authoring::Scene scene = crowd(count);
         sim::Simulation simulation(scene, library);
         sim::Simulation::Parts& parts = simulation.parts();
-        simulation.step();  // what contact reads besides, such as wishes
-        parts.buffers.states.upload(statesOf(scene));
-        parts.buffers.chests.upload(chestsOf(scene));
-        parts.cells.run();
-        parts.diagram.build(parts.extent);
-        parts.sensing.run();
+        setOut(simulation, scene);
         std::vector<Walking> people = peopleOf(parts, scene);
         const std::vector<Walking> before = people;
-        std::vector<glm::vec4> targets;
-        for (const Walking& each : people)
-            targets.emplace_back(each.place.x, each.place.y, each.axis.x, each.axis.y);
+        const std::vector<glm::vec4> targets = targetsOf(people);
         parts.buffers.targets.upload(targets);
         parts.buffers.targets_after.upload(targets);
         sim::Contacts contacts(library, parts.buffers, 1, parts.settings.motion);
@@ -245,6 +280,21 @@ TEST_F(BodyContactTest, PushesAndTurnsAsTheReferenceDoes) {
         EXPECT_GT(outcome.pushed, count / 2) << "or nothing was seen";
         EXPECT_GT(outcome.turned, count / 4) << "or nothing was seen";
     }
+}
+
+TEST_F(BodyContactTest, RoundsOfThoseNearAreRoundsOfAll) {
+    constexpr double kSeveralRoundings = 2.0e-4;  // m: two programs of the same text round differently
+    for (const std::uint32_t count : {1u, 63u, 1234u}) {
+        double pushed = 0.0;
+        EXPECT_LT(apartAfterRounds(count, 0.42f, 4, pushed), kSeveralRoundings) << count << " people";
+        EXPECT_TRUE(count == 1 || pushed > 0.02) << "or nothing was seen";
+    }
+}
+
+TEST_F(BodyContactTest, RoundsInACrushBeyondTheListsAreRoundsOfAll) {
+    double pushed = 0.0;
+    EXPECT_LT(apartAfterRounds(200, 0.12f, 2, pushed), 2.0e-4);
+    EXPECT_GT(pushed, 0.05) << "or nothing was seen";
 }
 
 }  // namespace
