@@ -46,13 +46,14 @@ void pushFromWall(WallSegment wall, Body self, vec2 start, bool turns, inout vec
 
 #ifdef FIRST_ROUND
 
-/// Notes the walls that may move the body in the rounds that follow. @returns how many they are
-uint noteWalls(Body self, uint slot, vec4 target) {
+/// Notes the walls that may move the body in the rounds that follow, as long as it stays within NEAR_ENOUGH of where it
+/// began the step. @returns how many they are; the list holds NEAR_WALLS of them at most
+uint noteWalls(Body self, uint slot) {
     uint cell = cellIndex(cellOf(self.position));
     uint found = 0u;
     for (uint i = wall_starts[cell]; i < wall_starts[cell + 1u]; ++i) {
         WallSegment wall = wall_segments[wall_items[i]];
-        float away = length(nearestOnSegment(target.xy, wall.a, wall.b) - target.xy);
+        float away = length(nearestOnSegment(self.position, wall.a, wall.b) - self.position);
         if (away - wall.half_thickness - self.radius >= NEAR_ENOUGH) continue;
         if (found < NEAR_WALLS) near_lists[slot * NEAR_WORDS + 1u + NEAR_CAPACITY + found] = wall_items[i];
         ++found;
@@ -67,6 +68,7 @@ vec4 keepOutOfWalls(Body self, uint slot, uint listed_walls, vec2 start, vec4 ta
     uint cell = cellIndex(cellOf(self.position));
     uint first = listed_walls > 0u ? slot * NEAR_WORDS + 1u + NEAR_CAPACITY : wall_starts[cell];
     uint last = listed_walls > 0u ? first + listed_walls : wall_starts[cell + 1u];
+    if (first >= last) return target;  // it has come into another cell since it last looked round
     // Leaving one wall may lead into the next: a few rounds settle corners, the last ones without turning.
     int round = 0;
     vec4 was;

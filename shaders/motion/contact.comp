@@ -99,10 +99,14 @@ void main() {
 #ifdef FIRST_ROUND
     bool walls = (touch_word & TOUCH_WALL_NEAR) != 0u;
     if (walls) target = keepOutOfWalls(self, slot, 0u, start, target);
-    near_lists[slot * NEAR_WORDS] = near | (walls ? noteWalls(self, slot, target) << NEAR_WALLS_AT : 0u);
+    uint noted = walls ? min(noteWalls(self, slot), NEAR_WALLS + 1u) << NEAR_WALLS_AT | TOUCH_WALL_NEAR : 0u;
+    near_lists[slot * NEAR_WORDS] = near | noted;
 #else
-    uint walls = touch_word >> NEAR_WALLS_AT;
-    if (walls > 0u) target = keepOutOfWalls(self, slot, walls <= NEAR_WALLS ? walls : 0u, start, target);
+    // Who is pushed far in a step may meet walls that are not on its list.
+    uint noted = (touch_word & ~TOUCH_WALL_NEAR) >> NEAR_WALLS_AT;
+    bool all_noted = noted <= NEAR_WALLS && distance(target.xy, self.position) < NEAR_ENOUGH;
+    if ((touch_word & TOUCH_WALL_NEAR) != 0u && (noted > 0u || !all_noted))
+        target = keepOutOfWalls(self, slot, all_noted ? noted : 0u, start, target);
 #endif
     targets_after[slot] = target;
 #else

@@ -42,8 +42,8 @@ const uint TOUCH_IN_NARROWS = 0x20000000u;   // it is in a narrow passage, or cl
 const uint TOUCH_CAPACITY = 16u;
 
 /// What is near enough to push somebody in the rounds of a step, where bodies are no discs
-/// (shaders/motion/capsules_apart.glsl): a word that counts bodies, like a touch word, and walls; then the
-/// slots of those; then these.
+/// (shaders/motion/capsules_apart.glsl): a word that counts bodies and says whether walls are near, like a
+/// touch word, and counts those; then the slots of bodies; then walls.
 const uint NEAR_CAPACITY = 15u;
 const uint NEAR_WALLS = 4u;
 const uint NEAR_WALLS_AT = 16u;  // where the bits begin that count walls

@@ -171,3 +171,19 @@ def test_people_who_are_too_fast_are_told_of(throng, tmp_path):
     ways = [[[0, 0, 0], [5, 600, 0]], [[0, 0, 2], [5, 6, 2]]]
     (tmp_path / "layout.json").write_text(json.dumps({"throng": 1, "given": [{"id": "given", "ways": ways}]}))
     assert "1 of 2 people are faster than 10 m/s" in throng("check", tmp_path / "layout.json").stderr
+
+
+@pytest.mark.parametrize("wall", [0.68, 0.72, 0.75])
+@pytest.mark.parametrize("people", [{"body": "adult"}, {"radius": 0.235}], ids=["body", "disc"])
+def test_nobody_is_pushed_through_a_wall_by_who_appears(throng, tmp_path, people, wall):
+    """The wall is further off than a body reaches when the push begins, and within it before the step ends."""
+    layout = {"throng": 1, "simulation": {"duration": 4, "seed": 1, "tile_radius": 1.0, "smoothing": 0},
+              "walls": [{"points": [[wall, -6], [wall, 6]], "thickness": 0.02}],
+              "formations": [{"id": "stands", "type": "agents", "arrival": "stay", "people": people,
+                              "agents": [{"position": [0, 0], "goal": [0, 0], "heading": 0}]}],
+              "given": [{"id": "appears", "people": {"radius": 0.9}, "ways": [[[1, -0.1, 0], [3.9, -0.1, 0]]]}]}
+    (tmp_path / "layout.json").write_text(json.dumps(layout))
+    throng("bake", tmp_path / "layout.json", "-o", tmp_path / "bake", "-q", "--no-gltf")
+    places = numpy.load(tmp_path / "bake" / "streams" / "pos.npy")[:, 0, 0]
+    assert 0.2 < places.max() < wall - 0.01  # pushed, and kept off
+    assert json.loads(throng("measure", tmp_path / "bake", "--json").stdout)["wall_crossings"] == 0
