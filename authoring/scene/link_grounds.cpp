@@ -12,6 +12,7 @@
 #include "authoring/link_kinds.h"
 #include "authoring/storeys/before_ends.h"
 #include "authoring/storeys/chart_raster.h"
+#include "authoring/storeys/cut.h"
 #include "base/polygon.h"
 
 namespace throng::authoring {
