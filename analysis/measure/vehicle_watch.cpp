@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kNear = 20.0;      // m: those further away are no matter
 constexpr double kRunOver = -0.01;  // m
+constexpr double kSteepest = 0.12;  // rise over run, of streets
 
 /// m from the outline of a box round the origin, below 0 inside.
 double distanceToBox(glm::dvec2 place, glm::dvec2 half) {
@@ -50,10 +51,12 @@ void VehicleWatch::look(std::uint32_t frame, std::uint32_t row, const Capsule& b
     for (std::size_t i = 0; i < bake_.vehicles.size(); ++i) {
         const std::span<const float> at = placeOf(frame, i);
         if (at[static_cast<std::size_t>(VehicleColumn::state)] == kVehicleAway) continue;
-        if (bake_.hasStoreys() && !areOnOneGround(double{at[2]}, height)) continue;
         const glm::dvec2 offset = body.middle - glm::dvec2(at[0], at[1]);
         const glm::dvec2 half(0.5 * bake_.vehicles[i].length, 0.5 * bake_.vehicles[i].width);
         if (glm::length(offset) > kNear + half.x) continue;
+        // Its height is that of its middle: on a slope its ends are higher and lower.
+        const double apart = std::abs(double{at[2]} - height) - kSteepest * glm::length(offset);
+        if (bake_.hasStoreys() && !areOnOneGround(std::max(apart, 0.0), 0.0)) continue;
         const double heading = at[static_cast<std::size_t>(VehicleColumn::heading)];
         const glm::dvec2 along(std::cos(heading), std::sin(heading)), aside(-along.y, along.x);
         if (isInDoorway(frame, i, {glm::dot(offset, along), glm::dot(offset, aside)})) continue;

@@ -69,6 +69,25 @@ void layLane(Lane& lane, const TerrainPlaces& places, const std::vector<Chart>& 
     lane.level = *chart;
 }
 
+/// A lane's points, and how far vehicles are beyond its two ends: they come in from behind the first, leave
+/// beyond the last, and people keep off what they may reach.
+std::vector<glm::dvec2> withBeyond(const Lane& lane) {
+    constexpr double kAheadSeconds = 2.0;  // LOOK_AHEAD of shaders/traffic/drive.comp
+    constexpr double kHeedAhead = 10.0;    // m: about as far as people sense
+    double longest = 0.0;
+    for (const VehicleType& type : kVehicleTypes)
+        longest = std::max(longest, type.length);
+    const double before = longest + kHeedAhead, after = before + kAheadSeconds * lane.speed;
+    std::vector<glm::dvec2> points = lane.points;
+    const auto beyond = [&](glm::dvec2 end, glm::dvec2 inside, double by) {
+        const double length = glm::distance(end, inside);
+        if (length > 0.0) points.push_back(end + (end - inside) / length * by);
+    };
+    beyond(lane.points.front(), lane.points[1], before);
+    beyond(lane.points.back(), lane.points[lane.points.size() - 2], after);
+    return points;
+}
+
 void include(Chart& chart, const std::vector<glm::dvec2>& points, double beside) {
     for (const glm::dvec2 point : points) {
         auto& [lower, upper] = chart.room ? *chart.room : chart.room.emplace(chart.bounds());
@@ -98,7 +117,7 @@ void layLanes(Layout& placed, const TerrainPlaces& places, std::vector<Chart>& c
     for (Lane& lane : placed.traffic.lanes) {
         layLane(lane, places, charts, diagnostics);
         if (diagnostics.hasErrors()) continue;
-        include(charts[lane.level], lane.points, heededBeside(lane));
+        include(charts[lane.level], withBeyond(lane), heededBeside(lane));
     }
     for (Zebra& crossing : placed.traffic.crossings) {
         const std::uint32_t spot = places.spotIn(crossing.polygon, crossing.level);

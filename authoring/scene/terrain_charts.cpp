@@ -133,6 +133,9 @@ class TerrainLayingOut {
         nameGrounds(used);
         Layout placed = layout_;
         layLanes(placed, places_, result_->charts, diagnostics_);
+        if (!diagnostics_.hasErrors())
+            for (Zebra& crossing : placed.traffic.crossings)
+                keepToGround(crossing.polygon, crossing.level);
         if (diagnostics_.hasErrors()) return nullptr;
         layInPlane(*result_);
         grounds_->home = layout_;

@@ -47,7 +47,7 @@ vec4 costsOfLeaving(uint cell, GroundCell ground_here, bool choice, float here, 
                             : vec4(-crowd.velocity.x, crowd.velocity.x, -crowd.velocity.y, crowd.velocity.y);
 #ifdef CHARTS
         // A crowd that goes up stairs as fast as one does there is no jam: what the ground costs, routes know already.
-        along *= min(ground_here.cost, MOST_SLOPE_COST);
+        along *= clamp(ground_here.cost, 1.0, MOST_SLOPE_COST);
 #endif
         float slowest = choice ? ROUTES_ROUND_JAMS_SLOWEST_WITH_CHOICE : ROUTES_ROUND_JAMS_SLOWEST;
         vec4 with_crowd = clamp(along / ROUTES_ROUND_JAMS_FREE_SPEED, slowest, 1.0);

@@ -108,3 +108,32 @@ def test_levels_without_a_terrain_have_no_lanes(throng, tmp_path):
     told = throng("check", mesh.write(tmp_path, given), expect=3)
     assert "have lanes and crossings only on a `terrain`" in told.stderr
     assert json.loads((tmp_path / "layout.json").read_text())["lanes"]
+
+
+def test_vehicles_on_one_deck_are_nothing_to_those_on_another(throng, tmp_path):
+    """Trams come in from far behind their lane and leave far beyond it, and in the plane there are others' grounds."""
+    mesh = Mesh()
+    mesh.box(-24, 8, -8, 20, DECK - 0.3, DECK)  # a second deck, eight metres away
+    places = [[-23.2 + 0.9 * i, 9.5 + 0.9 * j] for i in range(16) for j in range(11)]
+    given = layout(mesh, [])
+    given.update(areas=[], formations=[{"id": "crowd", "type": "agents", "level": "second", "arrival": "stay",
+                                        "agents": [{"position": place, "goal": place} for place in places]}],
+                 lanes=[{"id": "east", "level": "deck", "points": [[1, 0], [15, 0]]},
+                        {"id": "west", "level": "deck", "points": [[15, -3], [1, -3]]}])
+    given["levels"].append({"id": "second", "at": [-15, 14, DECK]})
+    given["simulation"]["duration"] = 11
+    moved = []
+    for times in ([1], [10.9]):
+        given["vehicles"] = [{"id": f"trams-{lane}", "lane": lane, "kind": "tram", "times": times}
+                             for lane in ("east", "west")]
+        (tmp_path / str(times[0])).mkdir()
+        moved.append(Baked(throng, tmp_path / str(times[0]), mesh, given).places[: 10 * 24])
+    assert (moved[0] == moved[1]).all()
+
+
+def test_a_crossing_ends_with_its_ground(throng, tmp_path):
+    """However far its outline reaches: in the plane there are others' grounds beyond, and nobody is stopped for those."""
+    mesh = Mesh()
+    far = {"id": "zebra", "polygon": [[5, -3], [11, -3], [11, 110], [5, 110]]}
+    bake = Driven(throng, tmp_path, mesh, scene(mesh, crossings=[far], formations=[crowd("deck")]))
+    assert (~bake.drives[-1]).all() and bake.track["speed"][bake.drives].min() > 9.9

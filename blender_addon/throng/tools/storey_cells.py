@@ -73,7 +73,7 @@ def _charts_of(corners, parts, manifest):
     for number in order:
         part = parts[number]
         own = (_on_link(middles, part, links[part["name"]]) if part["kind"] == "link" and part["name"] in links
-               else _on_level(middles, part, levels[part["level"]]) if part["kind"] in ("level", "ground")
+               else _on_level(middles, part, levels.get(part["level"])) if part["kind"] in ("level", "ground")
                else numpy.zeros(len(corners), dtype=bool))
         chart[own & (chart < 0)] = number
     return chart
@@ -94,8 +94,11 @@ def _on_link(middles, part, link):
 
 
 def _on_level(middles, part, level):
+    """@param level None: a ground of a terrain that no level names, known by its heights only"""
     loose = _STEP if part["kind"] == "level" else _LOOSE
     own = (middles[:, 2] > part["lowest"] - loose) & (middles[:, 2] < part["highest"] + loose)
+    if level is None:
+        return own
     floor = [tuple(point) for point in level["floor"]]
     own[own] = [inside(floor, tuple(place)) for place in middles[own, :2]]
     return own
