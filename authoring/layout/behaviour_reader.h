@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
@@ -15,7 +14,6 @@ namespace throng::authoring {
 /// Reads behaviours: tables of what people do, and what leads them from one thing to the next.
 class BehaviourReader {
   public:
-    using Indices = std::map<std::string, std::size_t>;  // by id
     /// @param groups ids of flows and formations, known once these are read; @param walls likewise, of walls
     BehaviourReader(const Schema& schema, Layout& layout, const PlaceReader& places, const Indices& groups,
                     const Indices& walls, const TrafficReader& traffic, Diagnostics& diagnostics)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,7 +14,7 @@ namespace throng::authoring {
 class BoardingReader {
   public:
     /// @param areas by id
-    BoardingReader(const Schema& schema, Layout& layout, const std::map<std::string, std::size_t>& areas,
+    BoardingReader(const Schema& schema, Layout& layout, const Indices& areas,
                    Diagnostics& diagnostics)
         : schema_(schema), layout_(layout), areas_(areas), diagnostics_(diagnostics) {}
 
@@ -40,9 +39,9 @@ class BoardingReader {
 
     const Schema& schema_;
     Layout& layout_;
-    const std::map<std::string, std::size_t>& areas_;
+    const Indices& areas_;
     Diagnostics& diagnostics_;
-    std::map<std::string, std::size_t> ids_;  // of platforms
+    Indices ids_;  // of platforms
 };
 
 }  // namespace throng::authoring

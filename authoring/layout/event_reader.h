@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,7 +17,6 @@ namespace throng::authoring {
 /// Reads events, after whom and what they name.
 class EventReader {
   public:
-    using Indices = std::map<std::string, std::size_t>;  // by id
     EventReader(const Schema& schema, Layout& layout, PlaceReader& places, const SeatReader& seats,
                 const GivenReader& given, const Indices& groups, const Indices& walls,
                 Diagnostics& diagnostics)

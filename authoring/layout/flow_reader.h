@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,7 +17,6 @@ namespace throng::authoring {
 /// Reads flows, after the places, platforms and behaviours that they name.
 class FlowReader {
   public:
-    using Indices = std::map<std::string, std::size_t>;  // by id
     FlowReader(const Schema& schema, Layout& layout, PlaceReader& places, BehaviourReader& behaviours,
                BoardingReader& boarding, Indices& groups, Diagnostics& diagnostics)
         : schema_(schema),

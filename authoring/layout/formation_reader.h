@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,7 +17,6 @@ namespace throng::authoring {
 /// Reads formations, after flows.
 class FormationReader {
   public:
-    using Indices = std::map<std::string, std::size_t>;  // by id
     FormationReader(const Schema& schema, Layout& layout, PlaceReader& places, LevelReader& levels,
                     BehaviourReader& behaviours, Indices& groups, Diagnostics& diagnostics)
         : schema_(schema),

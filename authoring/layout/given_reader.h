@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <map>
 #include <string>
 
 #include "authoring/layout.h"
@@ -13,7 +12,6 @@ namespace throng::authoring {
 /// Reads people whose ways are given; those in files are read later, by whoever knows files.
 class GivenReader {
   public:
-    using Indices = std::map<std::string, std::size_t>;  // by id
     /// @param groups ids of flows and formations, to which those of given people are added
     GivenReader(const Schema& schema, Layout& layout, LevelReader& levels, Indices& groups,
                 Diagnostics& diagnostics)

@@ -389,8 +389,8 @@ class Reader {
     Diagnostics& diagnostics_;
     Layout layout_;
     std::optional<SourcePosition> simulation_where_;
-    std::map<std::string, std::size_t> roads_, areas_, walls_, attractions_;
-    std::map<std::string, std::size_t> groups_;  // flows by index, formations
+    Indices roads_, areas_, walls_, attractions_;
+    Indices groups_;  // flows by index, formations
     PlaceReader places_{schema_, roads_, areas_, diagnostics_};
     LevelReader levels_{schema_, layout_, diagnostics_};
     PatchReader patches_{schema_, layout_, levels_, diagnostics_};

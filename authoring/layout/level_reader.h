@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <map>
 #include <string>
 
 #include "authoring/layout.h"
@@ -48,7 +47,7 @@ class LevelReader {
     const Schema& schema_;
     Layout& layout_;
     Diagnostics& diagnostics_;
-    std::map<std::string, std::size_t> levels_, links_;
+    Indices levels_, links_;
 };
 
 }  // namespace throng::authoring

@@ -43,7 +43,7 @@ std::optional<double> numberOf(const JsonNode& node, Limits limits, Diagnostics&
     return node.number;
 }
 
-void claimId(const JsonNode& node, const std::string& id, std::map<std::string, std::size_t>& ids,
+void claimId(const JsonNode& node, const std::string& id, Indices& ids,
              std::size_t index, const char* kind, Diagnostics& diagnostics) {
     if (id.empty()) return;
     const JsonNode* where = node.find("id");
@@ -52,7 +52,7 @@ void claimId(const JsonNode& node, const std::string& id, std::map<std::string, 
                           "ids have to differ");
 }
 
-std::vector<std::string> namesOf(const std::map<std::string, std::size_t>& ids) {
+std::vector<std::string> namesOf(const Indices& ids) {
     std::vector<std::string> names;
     names.reserve(ids.size());
     for (const auto& [id, index] : ids)

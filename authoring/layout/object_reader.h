@@ -23,13 +23,16 @@ using Meanings = std::vector<std::pair<std::string_view, Value>>;
 /// A number within its limits; anything else is an error.
 std::optional<double> numberOf(const JsonNode& node, Limits limits, Diagnostics& diagnostics);
 
+/// By id, which of its kind an object is.
+using Indices = std::map<std::string, std::size_t>;
+
 /// Keeps under which index an object is found by its id; tells of one that is taken already.
 /// @param kind "a road", for messages
-void claimId(const JsonNode& node, const std::string& id, std::map<std::string, std::size_t>& ids,
+void claimId(const JsonNode& node, const std::string& id, Indices& ids,
              std::size_t index, const char* kind, Diagnostics& diagnostics);
 
 /// The ids of such objects, to tell which one was probably meant.
-std::vector<std::string> namesOf(const std::map<std::string, std::size_t>& ids);
+std::vector<std::string> namesOf(const Indices& ids);
 
 /// Reads the members of one object, telling every mistake and going on. What a member has to be like is what
 /// the schema says of its key. A value that is handed in to be read is what holds where nothing is written:

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <map>
 #include <string>
 
 #include "authoring/layout.h"
@@ -26,7 +25,7 @@ class PatchReader {
     Layout& layout_;
     LevelReader& levels_;
     Diagnostics& diagnostics_;
-    std::map<std::string, std::size_t> patches_;
+    Indices patches_;
 };
 
 }  // namespace throng::authoring

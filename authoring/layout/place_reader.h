@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,7 +13,6 @@ namespace throng::authoring {
 /// Reads what names roads and areas: places, destinations and stops.
 class PlaceReader {
   public:
-    using Indices = std::map<std::string, std::size_t>;  // by id
     PlaceReader(const Schema& schema, const Indices& roads, const Indices& areas, Diagnostics& diagnostics)
         : schema_(schema), roads_(roads), areas_(areas), diagnostics_(diagnostics) {}
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <map>
 #include <string>
 
 #include "authoring/layout.h"
@@ -14,7 +13,6 @@ namespace throng::authoring {
 /// Reads blocks of seats and what their audiences do.
 class SeatReader {
   public:
-    using Indices = std::map<std::string, std::size_t>;  // by id
     /// @param groups ids of flows and formations, to which those of blocks are added; @param walls likewise,
     /// of walls
     SeatReader(const Schema& schema, Layout& layout, const PlaceReader& places, const LevelReader& levels,

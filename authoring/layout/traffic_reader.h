@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
@@ -32,7 +31,6 @@ class TrafficReader {
     void finish();
 
   private:
-    using Ids = std::map<std::string, std::size_t>;
     struct NamedSignal {
         std::size_t lane, stop;
         const JsonNode* name;
@@ -51,7 +49,7 @@ class TrafficReader {
     const LevelReader& levels_;
     BoardingReader& boarding_;
     Diagnostics& diagnostics_;
-    Ids crossings_, lanes_, signals_, flows_;
+    Indices crossings_, lanes_, signals_, flows_;
     std::vector<NamedSignal> named_;
 };
 
