@@ -19,7 +19,7 @@
 namespace throng::recording {
 namespace {
 
-constexpr double kPerMetre = 65536.0;
+const double kPerMetre = double{gpu::PLACES_PER_METRE};
 constexpr auto kLed = static_cast<float>(gpu::ACTIVITY_LED);
 
 /// Whether somebody is led between rows of seats. @param at where its state begins

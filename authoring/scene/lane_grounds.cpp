@@ -11,6 +11,7 @@
 
 #include "authoring/storeys/chart_raster.h"
 #include "base/polygon.h"
+#include "shaders/shared/traffic_types.h"
 
 namespace throng::authoring {
 namespace {
@@ -72,12 +73,11 @@ void layLane(Lane& lane, const TerrainPlaces& places, const std::vector<Chart>& 
 /// A lane's points, and how far vehicles are beyond its two ends: they come in from behind the first, leave
 /// beyond the last, and people keep off what they may reach.
 std::vector<glm::dvec2> withBeyond(const Lane& lane) {
-    constexpr double kAheadSeconds = 2.0;  // LOOK_AHEAD of shaders/traffic/drive.comp
-    constexpr double kHeedAhead = 10.0;    // m: about as far as people sense
+    constexpr double kHeedAhead = 10.0;  // m: about as far as people sense
     double longest = 0.0;
     for (const VehicleType& type : kVehicleTypes)
         longest = std::max(longest, type.length);
-    const double before = longest + kHeedAhead, after = before + kAheadSeconds * lane.speed;
+    const double before = longest + kHeedAhead, after = before + double{gpu::VEHICLE_LOOK_AHEAD} * lane.speed;
     std::vector<glm::dvec2> points = lane.points;
     const auto beyond = [&](glm::dvec2 end, glm::dvec2 inside, double by) {
         const double length = glm::distance(end, inside);

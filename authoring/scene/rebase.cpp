@@ -8,12 +8,13 @@
 #include <numbers>
 
 #include "authoring/scene/random.h"
+#include "shaders/shared/chart_types.h"
 
 namespace throng::authoring {
 namespace {
 
-constexpr double kMargin = 3.0;            // m around everything: room to be pushed into
-constexpr double kQuantum = 65536.0;       // local coordinates are multiples of 1 / this, m
+constexpr double kMargin = 3.0;  // m around everything: room to be pushed into
+const double kQuantum = double{gpu::PLACES_PER_METRE};
 constexpr double kNearTheOrigin = 2048.0;  // m: up to here float32 keeps a quarter of a millimetre
 
 class Bounds {

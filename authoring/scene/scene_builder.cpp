@@ -14,11 +14,11 @@
 #include "authoring/scene/boarding.h"
 #include "authoring/scene/chart_map.h"
 #include "authoring/scene/draw_people.h"
-#include "authoring/scene/formation_placer.h"
 #include "authoring/scene/given.h"
 #include "authoring/scene/itineraries.h"
 #include "authoring/scene/narrow_places.h"
 #include "authoring/scene/patches.h"
+#include "authoring/scene/place_formations.h"
 #include "authoring/scene/raster.h"
 #include "authoring/scene/rebase.h"
 #include "authoring/scene/route_flow.h"
@@ -74,9 +74,7 @@ class SceneAssembly {
                            itineraries, behaviours, diagnostics_, scene_};
         for (std::size_t i = 0; i < layout_.flows.size(); ++i)
             routeFlow(with, layout_.flows[i], i);
-        FormationPlacer formations(with, closed_gates_);
-        for (std::size_t i = 0; i < layout_.formations.size(); ++i)
-            formations.place(layout_.formations[i], i);
+        placeFormations(with, closed_gates_);
         for (std::size_t group = 0; group < scene_.groups.size(); ++group)
             if (scene_.groups[group].block) seatAudience(group, behaviours);
         buildSeats(layout_, rebase_, scene_, diagnostics_);

@@ -10,6 +10,7 @@ THRONG_SHARED_BEGIN
 
 const float SHIFT_STEP =
     4.0;  // m: shifts are multiples of it, and so the lattices of everything fit together
+const float PLACES_PER_METRE = 65536.0;  // places in the scene are whole multiples of one over this
 const uint NO_CHART = 0xffu;
 const uint NO_IMAGES = 0xffffffffu;
 const uint MOST_IMAGES = 4u;  // charts on which one person may be present besides its own

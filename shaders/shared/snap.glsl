@@ -4,7 +4,9 @@
 // before, not the sum: a sum rounds differently in different parts of the plane.
 
 #ifdef CHARTS
-vec2 snapped(vec2 way) { return round(way * 65536.0) / 65536.0; }
+#include "shaders/shared/chart_types.h"
+
+vec2 snapped(vec2 way) { return round(way * PLACES_PER_METRE) / PLACES_PER_METRE; }
 #else
 vec2 snapped(vec2 way) { return way; }
 #endif

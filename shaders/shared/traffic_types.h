@@ -45,6 +45,9 @@ struct Vehicle {
     float gap;
 };
 
+/// s: people keep off what a vehicle may reach until then.
+const float VEHICLE_LOOK_AHEAD = 2.0;
+
 /// Where a vehicle is, and what it is about to drive over, as people see it.
 struct VehicleBox {
     vec2 rear;         // m: the middle of its back

@@ -26,7 +26,6 @@ uniform float now;  // s, at the start of the step
 #include "shaders/traffic/driver.glsl"
 
 const float FAR = 1.0e9;             // m
-const float LOOK_AHEAD = 2.0;        // s: people keep off what a vehicle may reach until then
 const float LOOK_FOR_STOPS = 60.0;   // m
 const float FIRM_BRAKING = 3.5;      // m/s^2: who would have to brake harder for a light drives on
 const float PASSED = 0.3;            // m: behind a line by so much, it does not count any more
@@ -170,7 +169,7 @@ VehicleBox boxOf(Vehicle self, Outlook outlook) {
     if (!isThere(self.status)) return box;
     box.front = placeOnLane(self.lane, self.along);
     box.rear = box.front + normalize(placeOnLane(self.lane, self.along - self.length) - box.front) * self.length;
-    float reach = min(self.speed * LOOK_AHEAD, outlook.free);
+    float reach = min(self.speed * VEHICLE_LOOK_AHEAD, outlook.free);
     box.ahead = placeOnLane(self.lane, self.along + reach);
     box.half_width = self.half_width;
     box.speed = self.speed;

@@ -161,10 +161,9 @@ class Follower::Eye {
         if (belts.empty()) return glm::vec2(0.0f);
         const std::uint32_t flags = parts_.buffers.walkers.download<gpu::Walker>(1, slot).front().flags;
         if ((flags & gpu::WALKER_IS_CARRIED) == 0) return glm::vec2(0.0f);
-        constexpr float kFinest = 65536.0f;  // of a metre (shaders/shared/snap.glsl)
         const float seconds = parts_.parameters.step_seconds;
         const glm::vec2 way = belts[flags >> gpu::WALKER_CHART_AT & gpu::NO_CHART].velocity * seconds;
-        return glm::round(way * kFinest) / kFinest / seconds;
+        return glm::round(way * gpu::PLACES_PER_METRE) / gpu::PLACES_PER_METRE / seconds;
     }
 
     glm::vec2 velocityTo(const Watched& watched, glm::vec2 target) const {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "authoring/scene/placing.h"
@@ -13,17 +12,7 @@ std::vector<Routes::PointGoal> pointGoals(const Layout& layout, const Rebase& re
                                           const WalkGeometry& geometry, const Scene& scene);
 
 /// Gives the people of formations their places and ways.
-class FormationPlacer {
-  public:
-    /// @param closed_gates at the start
-    FormationPlacer(const Placing& with, const std::vector<gpu::WallSegment>& closed_gates);
-    ~FormationPlacer();
-
-    void place(const Formation& formation, std::size_t formation_index);
-
-  private:
-    class Impl;
-    std::unique_ptr<Impl> impl_;
-};
+/// @param closed_gates at the start
+void placeFormations(const Placing& with, const std::vector<gpu::WallSegment>& closed_gates);
 
 }  // namespace throng::authoring

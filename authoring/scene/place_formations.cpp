@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "authoring/scene/formation_placer.h"
+#include "authoring/scene/place_formations.h"
 
 #include <fmt/format.h>
 
@@ -50,38 +50,9 @@ double wallGap(const Capsule& shape, const gpu::WallSegment& wall) {
            shape.thickness - wall.half_thickness;
 }
 
-}  // namespace
-
-std::vector<Routes::PointGoal> pointGoals(const Layout& layout, const Rebase& rebase,
-                                          const WalkGeometry& geometry, const Scene& scene) {
-    std::vector<Routes::PointGoal> goals;
-    if (!geometry.hasObstacles()) return goals;
-    for (std::size_t index = 0; index < layout.formations.size(); ++index) {
-        const Formation& formation = layout.formations[index];
-        if (formation.behaviour) continue;
-        const FormationPlaces places = formationPlaces(formation, layout.simulation.seed);
-        if (places.goals.empty()) continue;
-        std::uint64_t i = 0;
-        forEachRow(scene, layout.flows.size() + index, [&](const gpu::Person& person) {
-            const Traveller traveller = travellerOf(scene, person, layout.flows.size() + index, i);
-            glm::vec2 from = person.spawn_position;
-            const auto goOn = [&](glm::dvec2 to) {
-                const glm::vec2 goal = rebase.local(to);
-                goals.emplace_back(goal, isStraight(geometry, from, goal, person.radius));
-                from = goal;
-            };
-            for (const Waypoint& waypoint : wayOf(formation, i))
-                goOn(waypoint.point);
-            if (!ownDestination(formation, i)) goOn(goalOf(formation, places, i, traveller.leader));
-            ++i;
-        });
-    }
-    return goals;
-}
-
-class FormationPlacer::Impl {
+class FormationPlacer {
   public:
-    Impl(const Placing& with, const std::vector<gpu::WallSegment>& closed_gates)
+    FormationPlacer(const Placing& with, const std::vector<gpu::WallSegment>& closed_gates)
         : with_(with), closed_gates_(closed_gates) {}
 
     void place(const Formation& formation, std::size_t formation_index) {
@@ -288,12 +259,39 @@ class FormationPlacer::Impl {
     FormationComplaints complaints_;  // about the formation at hand
 };
 
-FormationPlacer::FormationPlacer(const Placing& with, const std::vector<gpu::WallSegment>& closed_gates)
-    : impl_(std::make_unique<Impl>(with, closed_gates)) {}
-FormationPlacer::~FormationPlacer() = default;
+}  // namespace
 
-void FormationPlacer::place(const Formation& formation, std::size_t formation_index) {
-    impl_->place(formation, formation_index);
+std::vector<Routes::PointGoal> pointGoals(const Layout& layout, const Rebase& rebase,
+                                          const WalkGeometry& geometry, const Scene& scene) {
+    std::vector<Routes::PointGoal> goals;
+    if (!geometry.hasObstacles()) return goals;
+    for (std::size_t index = 0; index < layout.formations.size(); ++index) {
+        const Formation& formation = layout.formations[index];
+        if (formation.behaviour) continue;
+        const FormationPlaces places = formationPlaces(formation, layout.simulation.seed);
+        if (places.goals.empty()) continue;
+        std::uint64_t i = 0;
+        forEachRow(scene, layout.flows.size() + index, [&](const gpu::Person& person) {
+            const Traveller traveller = travellerOf(scene, person, layout.flows.size() + index, i);
+            glm::vec2 from = person.spawn_position;
+            const auto goOn = [&](glm::dvec2 to) {
+                const glm::vec2 goal = rebase.local(to);
+                goals.emplace_back(goal, isStraight(geometry, from, goal, person.radius));
+                from = goal;
+            };
+            for (const Waypoint& waypoint : wayOf(formation, i))
+                goOn(waypoint.point);
+            if (!ownDestination(formation, i)) goOn(goalOf(formation, places, i, traveller.leader));
+            ++i;
+        });
+    }
+    return goals;
+}
+
+void placeFormations(const Placing& with, const std::vector<gpu::WallSegment>& closed_gates) {
+    FormationPlacer placer(with, closed_gates);
+    for (std::size_t i = 0; i < with.layout.formations.size(); ++i)
+        placer.place(with.layout.formations[i], i);
 }
 
 }  // namespace throng::authoring
