@@ -14,8 +14,7 @@ namespace throng::authoring {
 class BoardingReader {
   public:
     /// @param areas by id
-    BoardingReader(const Schema& schema, Layout& layout, const Indices& areas,
-                   Diagnostics& diagnostics)
+    BoardingReader(const Schema& schema, Layout& layout, const Indices& areas, Diagnostics& diagnostics)
         : schema_(schema), layout_(layout), areas_(areas), diagnostics_(diagnostics) {}
 
     /// What a stop of a lane says of its platform, if it has one.

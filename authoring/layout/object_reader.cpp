@@ -43,8 +43,8 @@ std::optional<double> numberOf(const JsonNode& node, Limits limits, Diagnostics&
     return node.number;
 }
 
-void claimId(const JsonNode& node, const std::string& id, Indices& ids,
-             std::size_t index, const char* kind, Diagnostics& diagnostics) {
+void claimId(const JsonNode& node, const std::string& id, Indices& ids, std::size_t index, const char* kind,
+             Diagnostics& diagnostics) {
     if (id.empty()) return;
     const JsonNode* where = node.find("id");
     if (!ids.emplace(id, index).second && where)

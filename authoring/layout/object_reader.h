@@ -28,8 +28,8 @@ using Indices = std::map<std::string, std::size_t>;
 
 /// Keeps under which index an object is found by its id; tells of one that is taken already.
 /// @param kind "a road", for messages
-void claimId(const JsonNode& node, const std::string& id, Indices& ids,
-             std::size_t index, const char* kind, Diagnostics& diagnostics);
+void claimId(const JsonNode& node, const std::string& id, Indices& ids, std::size_t index, const char* kind,
+             Diagnostics& diagnostics);
 
 /// The ids of such objects, to tell which one was probably meant.
 std::vector<std::string> namesOf(const Indices& ids);
