@@ -2,6 +2,8 @@
 """The command line of scripts/figures."""
 
 import argparse
+import concurrent.futures
+import os
 import pathlib
 import shutil
 import sys
@@ -22,6 +24,7 @@ class Table(typing.NamedTuple):
     page: str
     minutes: int  # expected, on two idle cores without a GPU
     make: typing.Callable
+    timed: bool = False  # has figures of time, so nothing else may be at work meanwhile
 
 
 TABLES = {
@@ -39,14 +42,14 @@ TABLES = {
     "bodies": Table("motion-validation.md", 25, bodies.bodies),
     "ablations": Table("motion-notebook.md", 80, motion.ablations),
     "ablations-doors": Table("motion-notebook.md", 60, motion.ablations_doors),
-    "diagrams": Table("benchmarks/llvmpipe/diagrams.md", 15, benchmarks.diagrams),
-    "proximity": Table("benchmarks/llvmpipe/proximity.md", 3, benchmarks.proximity),
-    "rvo2": Table("benchmarks/llvmpipe/rvo2.md", 10, benchmarks.rvo2),
-    "step": Table("benchmarks/step.md", 2, benchmarks.step),
-    "predicted": Table("benchmarks/predicted.md", 1, benchmarks.predicted),
-    "jobs": Table("benchmarks/jobs.md", 12, jobs.jobs),
-    "batch": Table("benchmarks/batch.md", 3, benchmarks.batch),
-    "blender": Table("benchmarks/blender.md", 15, blender.blender),
+    "diagrams": Table("benchmarks/llvmpipe/diagrams.md", 15, benchmarks.diagrams, timed=True),
+    "proximity": Table("benchmarks/llvmpipe/proximity.md", 3, benchmarks.proximity, timed=True),
+    "rvo2": Table("benchmarks/llvmpipe/rvo2.md", 10, benchmarks.rvo2, timed=True),
+    "step": Table("benchmarks/step.md", 2, benchmarks.step, timed=True),
+    "predicted": Table("benchmarks/predicted.md", 1, benchmarks.predicted, timed=True),
+    "jobs": Table("benchmarks/jobs.md", 12, jobs.jobs, timed=True),
+    "batch": Table("benchmarks/batch.md", 3, benchmarks.batch, timed=True),
+    "blender": Table("benchmarks/blender.md", 15, blender.blender, timed=True),
 }
 
 
@@ -65,6 +68,13 @@ def arguments():
         default=ROOT / "build" / "release" / "throng",
         help="measure this program instead of building one from the checkout",
     )
+    parser.add_argument(
+        "--jobs",
+        type=int,
+        default=1,
+        metavar="N",
+        help="N tables at once, each on one core; those with figures of time come after them, one by one",
+    )
     options = parser.parse_args()
     unknown = [name for name in options.names if name not in TABLES]
     if unknown:
@@ -77,6 +87,30 @@ def list_tables():
     for name, made in TABLES.items():
         print(f"{name:{width}}  {made.minutes:4} min  docs/{made.page}")
     print(f"{'all':{width}}  {sum(made.minutes for made in TABLES.values()):4} min")
+
+
+def made(runs, name):
+    start = time.monotonic()
+    print(f"{name}:", file=sys.stderr, flush=True)
+    body = TABLES[name].make(runs)
+    print(f"{name}: {(time.monotonic() - start) / 60:.1f} min", file=sys.stderr, flush=True)
+    return f"{body}\n\n{pages.paragraph(runs.stamp(name))}"
+
+
+def made_at_once(runs, names, jobs):
+    """Those that take longest first."""
+    names = sorted(names, key=lambda name: -TABLES[name].minutes)
+    os.environ["LP_NUM_THREADS"] = "0"  # the software renderer's threads: each program keeps to its core
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        running = {pool.submit(made, runs, name): name for name in names}
+        for done in concurrent.futures.as_completed(running):
+            yield running[done], done.result()
+    del os.environ["LP_NUM_THREADS"]
+
+
+def made_in_turn(runs, names):
+    for name in names:
+        yield name, made(runs, name)
 
 
 def main():
@@ -93,16 +127,11 @@ def main():
     for name in names:  # before hours are spent
         pages.place_of(name, (docs / TABLES[name].page).read_text())
     runs = Runs(options.program, results, docs, options.quick)
-    for name in names:
-        start = time.monotonic()
-        print(f"{name}:", file=sys.stderr, flush=True)
-        body = TABLES[name].make(runs)
-        pages.put(docs / TABLES[name].page, name, f"{body}\n\n{pages.paragraph(runs.stamp(name))}")
-        print(
-            f"{name}: {(time.monotonic() - start) / 60:.1f} min, {docs / TABLES[name].page}",
-            file=sys.stderr,
-            flush=True,
-        )
+    at_once = [name for name in names if options.jobs > 1 and not TABLES[name].timed]
+    in_turn = [name for name in names if name not in at_once]
+    for found in (made_at_once(runs, at_once, options.jobs), made_in_turn(runs, in_turn)):
+        for name, text in found:
+            pages.put(docs / TABLES[name].page, name, text)
 
 
 if __name__ == "__main__":

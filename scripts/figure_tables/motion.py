@@ -324,7 +324,7 @@ def bottleneck_rows(runs):
 
 def ablation(runs, names):
     """What scripts/ablate.py says, which keeps what it has measured itself."""
-    folder = runs.folder.parent / "ablations"
+    folder = runs.folder.parent / f"ablations-{names[0]}"
     command = [sys.executable, ROOT / "scripts" / "ablate.py", runs.program, "-o", folder, "--scenario", *names]
     return subprocess.run([str(word) for word in command], check=True, stdout=subprocess.PIPE, text=True).stdout.strip()
 

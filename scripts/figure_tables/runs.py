@@ -11,6 +11,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 
 import reading
@@ -45,6 +46,7 @@ class Runs:
         """@param folder where results are kept; bakes are only there while they are read"""
         self.program, self.folder, self.docs, self.quick = pathlib.Path(program).resolve(), folder, docs, quick
         self.folder.mkdir(parents=True, exist_ok=True)
+        self.being_made = {}  # a lock for each result: tables made at once share some
         self.program_hash = hashlib.sha256(self.program.read_bytes()).hexdigest()
         devices = json.loads(output_of(self.program, "devices", "--json"))
         usable = [device for device in devices if device["usable"]]
@@ -71,19 +73,21 @@ class Runs:
         for thing in inputs:
             key.update(thing.read_bytes() if isinstance(thing, pathlib.Path) else repr(thing).encode())
         path = self.folder / f"{key.hexdigest()[:24]}.json"
-        if path.exists():
+        with self.being_made.setdefault(path, threading.Lock()):
+            if not path.exists():
+                self.measure(what, make, path)
             return json.loads(path.read_text())["result"]
-        print(f"  {what} ...", end="", file=sys.stderr, flush=True)
+
+    def measure(self, what, make, path):
         start = time.monotonic()
         result = make()
         seconds = time.monotonic() - start
-        print(f" {seconds:.0f} s", file=sys.stderr, flush=True)
+        print(f"  {what}: {seconds:.0f} s", file=sys.stderr, flush=True)
         complete = path.with_suffix(".new")
         complete.write_text(
             json.dumps({"what": what, "commit": commit(), "seconds": round(seconds, 1), "result": result})
         )
         complete.rename(path)
-        return result
 
     def scenario(self, name, *settings, read=None):
         """What `throng scenarios --json` prints of it, and what `read` (of the bake's folder) finds besides."""
