@@ -16,7 +16,7 @@
 namespace throng::sim {
 namespace {
 
-// How far contact may move somebody in one step and still be sure to meet everybody it is moved into, m.
+// How far contact may move somebody between two decisions and still be sure to meet everybody it is moved into, m.
 constexpr float kPushAllowance = 0.05f;
 
 constexpr const char* kSitter = "person with a seat";
@@ -26,6 +26,13 @@ float fastest(const authoring::Scene& scene) {
     for (const gpu::Person& person : scene.people)
         speed = std::max(speed, person.maximum_speed);
     return speed;
+}
+
+/// They may begin and stop at once, whatever legs can do.
+bool anybodyIsGiven(const authoring::Scene& scene) {
+    return std::ranges::any_of(scene.people, [](const gpu::Person& person) {
+        return (person.flags & gpu::PERSON_IS_GIVEN) != 0;
+    });
 }
 
 std::vector<gpu::AgentState> initialStates(const authoring::Scene& scene) {
@@ -142,10 +149,13 @@ gpu::Parameters makeParameters(const authoring::Scene& scene) {
     parameters.step_seconds = static_cast<float>(1.0 / (settings.fps * settings.substeps));
     parameters.decision_seconds = parameters.step_seconds * static_cast<float>(settings.stepsPerDecision());
     parameters.largest_radius = scene.largest_radius;
-    // Both may walk, and both may be pushed.
-    parameters.contact_slack = 2.0f * fastest(scene) * parameters.decision_seconds + 2.0f * kPushAllowance;
+    // Both may walk, both may change how they walk, and both may be pushed.
+    const float walked = 2.0f * fastest(scene) * parameters.decision_seconds, pushed = 2.0f * kPushAllowance;
+    const float changed = static_cast<float>(settings.maximum_acceleration) * parameters.decision_seconds *
+                          parameters.decision_seconds;
+    parameters.contact_slack = pushed + (anybodyIsGiven(scene) ? walked : std::min(changed, walked));
     parameters.contact_range = std::max(static_cast<float>(settings.contact_range),
-                                        2.0f * scene.largest_radius + parameters.contact_slack);
+                                        2.0f * scene.largest_radius + walked + pushed);
     parameters.cells_minimum = scene.minimum;
     parameters.cell_size = parameters.contact_range;
     // Of charts, whole numbers of cells make a shift.

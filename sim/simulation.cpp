@@ -106,7 +106,8 @@ constexpr const char* kRoutesClock = "routes clock";
 Simulation::State Simulation::save() const {
     State state;
     state.steps_done = parts_->steps_done;
-    for (const auto& [name, buffer] : parts_->remembered())
+    parts_->kept.takeBack();
+    for (const auto& [name, buffer] : parts_->remembered(state.steps_done))
         state.parts.emplace_back(name, buffer->download<std::byte>(buffer->bytes()));
     const Congestion::Clock clock = parts_->congestion.clock();
     const auto bytes = std::as_bytes(std::span(&clock, 1));
@@ -124,7 +125,7 @@ void Simulation::restore(const State& state) {
     // Ground as the last step left it: which of its news has spread, the state tells.
     p.steps_done = std::max(state.steps_done, 1u) - 1;
     if (state.steps_done > 0) p.congestion.chargeGround(p.now());
-    for (const auto& [name, buffer] : p.remembered())
+    for (const auto& [name, buffer] : p.remembered(state.steps_done))
         buffer->upload(part(name, buffer->bytes()));
     Congestion::Clock clock;
     std::memcpy(&clock, part(kRoutesClock, sizeof clock).data(), sizeof clock);
@@ -135,7 +136,7 @@ void Simulation::restore(const State& state) {
         p.gates.move(p.now());
     }
     p.steps_done = state.steps_done;
-    p.has_decided = false;
+    p.kept.forget();
 }
 
 void Simulation::adaptTo(std::uint32_t people_present) {
@@ -196,7 +197,7 @@ void Simulation::packFrame(const gl::Buffer& buffer) {
 }
 
 bool Simulation::buildDiagramNow(Extent extent) {
-    parts_->has_decided = false;  // the order is another one
+    if (!parts_->decidesAfter(parts_->steps_done)) parts_->kept.putAside();
     parts_->cells.run(CellSort::SiteIds::rows);
     return parts_->diagram.build(extent);
 }

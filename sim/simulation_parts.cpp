@@ -103,6 +103,7 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
       buffers(scene, parameters),
       diagram(library, diagramOptions(scene, parameters, buffers), wallSites(scene, parameters)),
       cells(library, buffers, parameters),
+      kept(buffers),
       behaviour(scene.behaviours.empty()
                     ? std::nullopt
                     : std::optional<Behaviour>(std::in_place, library, buffers, scene, settings.motion)),
@@ -229,8 +230,9 @@ std::vector<Pass> Simulation::Parts::passesOfStep() {
 }
 
 void Simulation::Parts::beginStep() {
-    decides = !has_decided || steps_done % static_cast<std::uint32_t>(settings.stepsPerDecision()) == 0;
-    has_decided = true;
+    decides = decidesAfter(steps_done);
+    if (!decides) kept.takeBack();
+    kept.forget();
     step_start = now();
     ++steps_done;
     gates.move(step_start);
@@ -257,7 +259,8 @@ void Simulation::Parts::changeWishes() {
                     timeAfter(steps_done - 1 + static_cast<std::uint32_t>(settings.stepsPerDecision())));
 }
 
-std::vector<std::pair<std::string, gl::Buffer*>> Simulation::Parts::remembered() {
+std::vector<std::pair<std::string, gl::Buffer*>> Simulation::Parts::remembered(
+    std::uint32_t steps) {
     std::vector<std::pair<std::string, gl::Buffer*>> found = {{"states", &buffers.states},
                                                               {"waiting lines", &buffers.lines},
                                                               {"tickets", &buffers.tickets},
@@ -285,6 +288,9 @@ std::vector<std::pair<std::string, gl::Buffer*>> Simulation::Parts::remembered()
             found.push_back(each);
     for (const auto& each : congestion.remembered())
         found.push_back(each);
+    if (!decidesAfter(steps))
+        for (const auto& each : kept.parts())
+            found.push_back(each);
     return found;
 }
 

@@ -217,8 +217,8 @@ struct Parameters {
     float time_horizon;       // s
     float wall_time_horizon;  // s
     float contact_range;      // m
-    float contact_slack;      // m: two people further apart than their radii and this cannot touch before the
-                              // next decision
+    float contact_slack;      // m: two people further apart than their radii, this and what their velocities
+                              // make of decision_seconds cannot touch before the next decision
     float maximum_acceleration;  // m/s^2
     uint is_wide;                // 1 = places are too coarse for steps (base/wide_site.h)
     uint site_rows;              // rows of people, and as many for each image that one may have

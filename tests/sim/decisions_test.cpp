@@ -9,13 +9,30 @@
 namespace throng::test {
 namespace {
 
+int stepsPerDecision(double fps, int substeps, double interval) {
+    authoring::SimulationSettings settings;
+    settings.fps = fps;
+    settings.substeps = substeps;
+    settings.decision_interval = interval;
+    return settings.stepsPerDecision();
+}
+
+TEST(StepsPerDecision, AreThoseOfAsManyWholeFramesAsFitTheInterval) {
+    const auto steps = [](double fps, int substeps, double interval = 0.084) {
+        return stepsPerDecision(fps, substeps, interval);
+    };
+    EXPECT_EQ(authoring::SimulationSettings().stepsPerDecision(), 4) << "24 frames/s of two steps, unless told";
+    EXPECT_EQ(steps(24, 1), 2);
+    EXPECT_EQ(steps(25, 2), 4);
+    EXPECT_EQ(steps(30, 1), 2);
+    EXPECT_EQ(steps(60, 1), 5);
+    EXPECT_EQ(steps(12, 2), 2) << "one frame";
+    EXPECT_EQ(steps(24, 2, 0.125), 6) << "as long as the interval";
+}
+
 TEST(StepsPerDecision, AreAsManyOfAFramesStepsAsFitTheInterval) {
     const auto steps = [](double fps, int substeps, double interval = 0.05) {
-        authoring::SimulationSettings settings;
-        settings.fps = fps;
-        settings.substeps = substeps;
-        settings.decision_interval = interval;
-        return settings.stepsPerDecision();
+        return stepsPerDecision(fps, substeps, interval);
     };
     EXPECT_EQ(steps(24, 2), 2);
     EXPECT_EQ(steps(24, 1), 1);
@@ -48,20 +65,76 @@ class DecisionsTest : public GpuTest {
     }
 };
 
-TEST_F(DecisionsTest, AreMadeInTheFirstStepOfAFrameAndKeptUntilTheNext) {
-    sim::Simulation simulation(twoWhoMeet(), library);
-    for (int frame = 0; frame < 20; ++frame) {
+TEST_F(DecisionsTest, AreMadeOnceInSoManyStepsAndKeptUntilTheNext) {
+    const authoring::Scene scene = twoWhoMeet();
+    const int steps = scene.settings.stepsPerDecision();
+    sim::Simulation simulation(scene, library);
+    for (int round = 0; round < 10; ++round) {
         simulation.step();
         const auto first = decisions(simulation);
-        const States between = states(simulation);
-        simulation.step();
-        EXPECT_TRUE(same(decisions(simulation), first)) << frame;
-        for (std::size_t row = 0; row < 2; ++row)
-            EXPECT_GT(glm::distance(states(simulation)[row].position, between[row].position), 1.0e-4f);
+        for (int step = 1; step < steps; ++step) {
+            const States between = states(simulation);
+            simulation.step();
+            EXPECT_TRUE(same(decisions(simulation), first)) << round << ", " << step;
+            for (std::size_t row = 0; row < 2; ++row)
+                EXPECT_GT(glm::distance(states(simulation)[row].position, between[row].position), 1.0e-4f);
+        }
     }
     const auto before = decisions(simulation);
     simulation.step();
     EXPECT_FALSE(same(decisions(simulation), before));
+}
+
+/// A crowd that has to squeeze through itself, so that slots change and bodies touch.
+authoring::Scene twoBlocksThatMeet() {
+    authoring::Scene scene = emptyScene({-12, -12}, {12, 12});
+    for (int i = 0; i < 48; ++i) {
+        const glm::vec2 place(static_cast<float>(i % 6), static_cast<float>(i / 6));
+        addPerson(scene, glm::vec2(-8, -3) + 0.8f * place, {8, 0});
+        addPerson(scene, glm::vec2(8, 3) - 0.8f * place, {-8, 0});
+    }
+    return scene;
+}
+
+/// Of all people, after the state's steps.
+std::vector<std::byte> peopleIn(const sim::Simulation::State& state) {
+    EXPECT_EQ(state.parts.front().first, "states");
+    return state.parts.front().second;
+}
+
+TEST_F(DecisionsTest, PicturesBetweenThemChangeNothing) {
+    const authoring::Scene scene = twoBlocksThatMeet();
+    sim::Simulation plain(scene, library), pictured(scene, library);
+    for (int step = 0; step < 200; ++step) {
+        plain.step();
+        pictured.step();
+        pictured.buildDiagramNow();
+        if (step % 5 == 0) pictured.buildDiagramNow();
+    }
+    EXPECT_EQ(peopleIn(plain.save()), peopleIn(pictured.save()));
+}
+
+TEST_F(DecisionsTest, StatesBetweenThemAreGoneOnFrom) {
+    constexpr int kFirst = 160, kMore = 7;
+    const authoring::Scene scene = twoBlocksThatMeet();
+    const int last = kFirst + 2 * scene.settings.stepsPerDecision();
+    std::vector<sim::Simulation::State> whole;
+    sim::Simulation simulation(scene, library);
+    for (int step = 1; step <= last + kMore; ++step) {
+        simulation.step();
+        if (step % 2 == 0) simulation.buildDiagramNow();
+        whole.push_back(step >= kFirst ? simulation.save() : sim::Simulation::State{});
+    }
+    for (int stop = kFirst; stop <= last; ++stop) {
+        sim::Simulation second(scene, library);
+        for (int step = 0; step < 10; ++step)
+            second.step();  // whatever it did before is forgotten
+        second.buildDiagramNow();
+        second.restore(whole[stop - 1]);
+        for (int step = 0; step < kMore; ++step)
+            second.step();
+        EXPECT_EQ(peopleIn(second.save()), peopleIn(whole[stop - 1 + kMore])) << stop;
+    }
 }
 
 TEST_F(DecisionsTest, LegsReachInAFrameWhatWasDecided) {
