@@ -365,12 +365,12 @@ std::map<std::string, Layout> layoutsInCpp() {
                                             MEMBER(detour_cell),       MEMBER(detour_width),
                                             MEMBER(detour_height),     MEMBER(row_count),
                                             MEMBER(queue_count),       MEMBER(seed),
-                                            MEMBER(has_roads),         MEMBER(tile_radius),
+                                            MEMBER(tile_radius),
                                             MEMBER(largest_radius),    MEMBER(step_seconds),
                                             MEMBER(decision_seconds),  MEMBER(time_horizon),
                                             MEMBER(wall_time_horizon), MEMBER(contact_range),
                                             MEMBER(contact_slack),     MEMBER(maximum_acceleration),
-                                            MEMBER(is_wide),           MEMBER(site_rows),
+                                            MEMBER(site_rows),
                                             MEMBER(chart_cell),        MEMBER(chart_width),
                                             MEMBER(chart_height)}};
     }
