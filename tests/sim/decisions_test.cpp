@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // People look round and decide once in several steps; bodies move and touch in each.
+#include <algorithm>
 #include <cstring>
+#include <random>
 
 #include "sim/simulation_parts.h"
 #include "tests/sim/gpu_test.h"
@@ -137,7 +139,7 @@ TEST_F(DecisionsTest, StatesBetweenThemAreGoneOnFrom) {
     }
 }
 
-TEST_F(DecisionsTest, LegsReachInAFrameWhatWasDecided) {
+TEST_F(DecisionsTest, LegsReachUntilTheNextWhatWasDecided) {
     authoring::Scene once = twoWhoMeet(), always = twoWhoMeet();
     always.settings.decision_interval = 0.0;
     sim::Simulation seldom(once, library), often(always, library);
@@ -146,14 +148,14 @@ TEST_F(DecisionsTest, LegsReachInAFrameWhatWasDecided) {
         often.step();
     }
     for (std::size_t row = 0; row < 2; ++row)
-        EXPECT_LT(glm::distance(states(seldom)[row].position, states(often)[row].position), 0.05f)
-            << "m, after 5 s";
+        EXPECT_LT(glm::distance(states(seldom)[row].position, states(often)[row].position), 0.16f)
+            << "m, after 5 s: a tenth of a second later";
 }
 
 TEST_F(DecisionsTest, BodiesThatMeetBetweenThemArePartedAtOnce) {
     authoring::Scene scene = emptyScene({-10, -10}, {10, 10});
     addPerson(scene, {0, 0}, {8, 0});
-    addPerson(scene, {0.7f, 0}, {8.7f, 0});
+    addPerson(scene, {0.6f, 0}, {8.6f, 0});
     sim::Simulation simulation(scene, library);
     simulation.step();
     States near = states(simulation);
@@ -164,6 +166,73 @@ TEST_F(DecisionsTest, BodiesThatMeetBetweenThemArePartedAtOnce) {
     const States after = states(simulation);
     EXPECT_GT(glm::distance(after[0].position, after[1].position), touch - 0.003f);
 }
+
+TEST_F(DecisionsTest, RunnersWhoseListsWereMadeFarApartDoNotEndUpInEachOther) {
+    for (const float apart : {0.9f, 1.0f, 1.1f, 1.2f}) {
+        authoring::Scene scene = emptyScene({-10, -10}, {10, 10});
+        addPerson(scene, {0, 0}, {8, 0});
+        addPerson(scene, {apart, 0}, {-8, 0});
+        for (gpu::Person& person : scene.people)
+            person.preferred_speed = person.maximum_speed = 4.0f;
+        sim::Simulation simulation(scene, library);
+        States running = states(simulation);
+        running[0].velocity = {4.0f, 0.0f};
+        running[1].velocity = {-4.0f, 0.0f};
+        simulation.parts().buffers.states.upload(running);
+        const float touch = scene.people[0].radius + scene.people[1].radius;
+        for (int step = 0; step < 24; ++step) {
+            simulation.step();
+            const States now = states(simulation);
+            EXPECT_GT(glm::distance(now[0].position, now[1].position), 0.98f * touch) << apart << ", " << step;
+        }
+    }
+}
+
+/// People of all paces who go anywhere, dense enough to touch.
+class TouchListTest : public DecisionsTest, public testing::WithParamInterface<std::uint32_t> {};
+
+TEST_P(TouchListTest, HoldsWhomSomebodyMayMeetBeforeTheNext) {
+    authoring::Scene scene = uniformScene(GetParam(), 0.9f, 5);
+    sim::Simulation simulation(scene, library);
+    const gpu::Parameters& parameters = simulation.parameters();
+    sim::Buffers& buffers = simulation.parts().buffers;
+    const std::uint32_t people = GetParam();
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> speed(-1.4f, 1.4f);
+    States moving = buffers.states.download<gpu::AgentState>(people);
+    for (gpu::AgentState& state : moving)
+        state.velocity = {speed(random), speed(random)};
+    buffers.states.upload(moving);
+    simulation.step();
+    // As they were when people looked round.
+    const auto rows = buffers.bodies.download<gpu::Body>(people);
+    const auto words = buffers.touch_words.download<std::uint32_t>(people);
+    const auto lists = buffers.touch_lists.download<std::uint32_t>(people * gpu::TOUCH_CAPACITY);
+    std::size_t listed = 0;
+    for (std::uint32_t slot = 0; slot < people; ++slot) {
+        std::vector<std::uint32_t> expected;
+        for (std::uint32_t other = 0; other < people; ++other) {
+            const float away = glm::distance(rows[slot].position, rows[other].position);
+            const float closing = glm::distance(rows[slot].velocity, rows[other].velocity);
+            const float reach = rows[slot].radius + rows[other].radius + parameters.contact_slack +
+                                closing * parameters.decision_seconds;
+            if (other != slot && away < std::min(reach, parameters.contact_range)) expected.push_back(other);
+        }
+        const std::uint32_t count = words[slot] & gpu::TOUCH_COUNT_MASK;
+        ASSERT_EQ(count, expected.size()) << slot;
+        if (count > gpu::TOUCH_CAPACITY) continue;
+        const auto first = lists.begin() + slot * gpu::TOUCH_CAPACITY;
+        std::vector<std::uint32_t> found(first, first + count);
+        std::sort(found.begin(), found.end());
+        EXPECT_EQ(found, expected) << slot;
+        listed += count;
+    }
+    if (people > 100) {
+        EXPECT_GT(listed, people / 2);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, TouchListTest, testing::Values(1u, 63u, 1234u));
 
 TEST_F(DecisionsTest, WhoLeavesBetweenThemIsLeftAlone) {
     int odd = 0;
