@@ -16,7 +16,8 @@
 namespace throng::sim {
 namespace {
 
-// How far contact may move somebody between two decisions and still be sure to meet everybody it is moved into, m.
+// How far contact may move somebody between two decisions and still be sure to meet everybody it is moved
+// into, m.
 constexpr float kPushAllowance = 0.05f;
 
 constexpr const char* kSitter = "person with a seat";
@@ -30,9 +31,8 @@ float fastest(const authoring::Scene& scene) {
 
 /// They may begin and stop at once, whatever legs can do.
 bool anybodyIsGiven(const authoring::Scene& scene) {
-    return std::ranges::any_of(scene.people, [](const gpu::Person& person) {
-        return (person.flags & gpu::PERSON_IS_GIVEN) != 0;
-    });
+    return std::ranges::any_of(
+        scene.people, [](const gpu::Person& person) { return (person.flags & gpu::PERSON_IS_GIVEN) != 0; });
 }
 
 std::vector<gpu::AgentState> initialStates(const authoring::Scene& scene) {
@@ -134,8 +134,8 @@ std::vector<gpu::Mind> mindsOf(const authoring::Scene& scene) {
     return minds;
 }
 
-/// What only some scenes have: programs are compiled without what theirs lacks, as most devices work through code that
-/// applies to nobody, too.
+/// What only some scenes have: programs are compiled without what theirs lacks, as most devices work through
+/// code that applies to nobody, too.
 gl::Definitions peculiaritiesOf(const authoring::Scene& scene) {
     const auto anybody = [&](const auto& is) { return std::ranges::any_of(scene.people, is); };
     const bool may_climb = scene.terrain || !scene.chart_map.empty();
@@ -173,8 +173,8 @@ gpu::Parameters makeParameters(const authoring::Scene& scene) {
     const float changed = static_cast<float>(settings.maximum_acceleration) * parameters.decision_seconds *
                           parameters.decision_seconds;
     parameters.contact_slack = pushed + (anybodyIsGiven(scene) ? walked : std::min(changed, walked));
-    parameters.contact_range = std::max(static_cast<float>(settings.contact_range),
-                                        2.0f * scene.largest_radius + walked + pushed);
+    parameters.contact_range =
+        std::max(static_cast<float>(settings.contact_range), 2.0f * scene.largest_radius + walked + pushed);
     parameters.cells_minimum = scene.minimum;
     parameters.cell_size = parameters.contact_range;
     // Of charts, whole numbers of cells make a shift.

@@ -4,9 +4,9 @@
 namespace throng::sim {
 
 KeptDecision::KeptDecision(Buffers& b)
-    : sorted_{&b.strip_counts, &b.strip_marks,   &b.strip_starts,   &b.strip_list,  &b.strip_list_end,
-              &b.cell_offsets, &b.row_cells,     &b.live_dispatch,  &b.site_slots,  &b.bodies,
-              &b.walkers,      &b.touch_slots,   &b.touch_dispatch},
+    : sorted_{&b.strip_counts, &b.strip_marks, &b.strip_starts,  &b.strip_list, &b.strip_list_end,
+              &b.cell_offsets, &b.row_cells,   &b.live_dispatch, &b.site_slots, &b.bodies,
+              &b.walkers,      &b.touch_slots, &b.touch_dispatch},
       decided_{&b.touch_words, &b.touch_lists, &b.preferred_velocities, &b.decisions} {
     if (!b.hasCharts()) return;
     sorted_.push_back(&b.slot_images);

@@ -9,9 +9,9 @@
 
 namespace throng::sim {
 
-/// What a decision leaves for the steps until the next one: the slots that people have, their lists, and what they
-/// decided. A picture between two decisions brings people into the order of the moment, so it puts aside what the steps
-/// after it go on with: pictures change nobody's motion.
+/// What a decision leaves for the steps until the next one: the slots that people have, their lists, and what
+/// they decided. A picture between two decisions brings people into the order of the moment, so it puts aside
+/// what the steps after it go on with: pictures change nobody's motion.
 class KeptDecision {
   public:
     /// @param buffers stay where they are

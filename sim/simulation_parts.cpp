@@ -259,8 +259,7 @@ void Simulation::Parts::changeWishes() {
                     timeAfter(steps_done - 1 + static_cast<std::uint32_t>(settings.stepsPerDecision())));
 }
 
-std::vector<std::pair<std::string, gl::Buffer*>> Simulation::Parts::remembered(
-    std::uint32_t steps) {
+std::vector<std::pair<std::string, gl::Buffer*>> Simulation::Parts::remembered(std::uint32_t steps) {
     std::vector<std::pair<std::string, gl::Buffer*>> found = {{"states", &buffers.states},
                                                               {"waiting lines", &buffers.lines},
                                                               {"tickets", &buffers.tickets},

@@ -85,8 +85,8 @@ struct Simulation::Parts {
 
     std::uint32_t rows = 0;
     std::uint32_t steps_done = 0;
-    bool decides = true;  // in this step people look round
-    float step_start = 0.0f;   // s, simulation time
+    bool decides = true;      // in this step people look round
+    float step_start = 0.0f;  // s, simulation time
     bool anybody_enters_later = false;
     std::vector<Pass> passes;  // of a step, in order; they refer to this
 

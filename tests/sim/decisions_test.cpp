@@ -23,7 +23,8 @@ TEST(StepsPerDecision, AreThoseOfAsManyWholeFramesAsFitTheInterval) {
     const auto steps = [](double fps, int substeps, double interval = 0.084) {
         return stepsPerDecision(fps, substeps, interval);
     };
-    EXPECT_EQ(authoring::SimulationSettings().stepsPerDecision(), 4) << "24 frames/s of two steps, unless told";
+    EXPECT_EQ(authoring::SimulationSettings().stepsPerDecision(), 4)
+        << "24 frames/s of two steps, unless told";
     EXPECT_EQ(steps(24, 1), 2);
     EXPECT_EQ(steps(25, 2), 4);
     EXPECT_EQ(steps(30, 1), 2);
@@ -183,7 +184,8 @@ TEST_F(DecisionsTest, RunnersWhoseListsWereMadeFarApartDoNotEndUpInEachOther) {
         for (int step = 0; step < 24; ++step) {
             simulation.step();
             const States now = states(simulation);
-            EXPECT_GT(glm::distance(now[0].position, now[1].position), 0.98f * touch) << apart << ", " << step;
+            EXPECT_GT(glm::distance(now[0].position, now[1].position), 0.98f * touch)
+                << apart << ", " << step;
         }
     }
 }
