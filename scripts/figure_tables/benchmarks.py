@@ -3,10 +3,12 @@
 
 import csv
 import json
+import os
 import shutil
 import subprocess
 import sys
 import tempfile
+from unittest import mock
 
 from pages import paragraph, table
 from runs import ROOT, output_of
@@ -135,13 +137,20 @@ STEP_PASSES = ("cells", "diagram", "sensing", "avoidance", "contacts", "motion")
 
 def step(runs):
     bench = runs.program.parent / "bench" / "throng_bench"
-    only = ["--benchmark_filter=wholeStep/256/|stepOverGradient1"] if runs.quick else []
-    told = runs.known(
-        "the step beside one diagram",
-        lambda: json.loads(output_of(bench, "--benchmark_format=json", *only)),
-        bench,
-        only,
-    )
+    small = "wholeStep/256/"
+    only = "wholeStep/4096/|stepOverGradient1" if runs.quick else "wholeStep/[0-9]{4,}/|stepOverGradient1"
+
+    def measured(which):
+        return json.loads(output_of(bench, "--benchmark_format=json", f"--benchmark_filter={which}"))
+
+    def small_crowds():
+        """As bakes have them: the software renderer does without its threads (cli/baking/baker.cpp)."""
+        with mock.patch.dict(os.environ, {"LP_NUM_THREADS": "0"}):
+            return measured(small)
+
+    alone = runs.known("steps of small crowds", small_crowds, bench, small)
+    told = runs.known("the step beside one diagram", lambda: measured(only), bench, only)
+    told["benchmarks"] = alone["benchmarks"] + told["benchmarks"]
     benches = {each["name"].split("/")[0]: each for each in told["benchmarks"]}
     pair = benches["stepOverGradient1"]
     rows = [
