@@ -3,13 +3,16 @@
 // before they are there. Who went by where it is would swing out after every corner, and walk past its goal and back.
 // Needs shaders/routes/route.glsl.
 
+/// s: how long after a decision its mean effect comes, because it stands for several steps.
+float untilItCounts() { return (parameters.decision_seconds - parameters.step_seconds) * 2.0 / 3.0; }
+
 /// The way from where one will be, or from where one is, if there might be a wall in between: beyond that, the way is
 /// longer or shorter by more than what was walked. Jams are heeded as they are.
 RouteAhead wayAhead(Stage stage, vec2 position, vec2 velocity, uint sensed, float nervousness) {
     RouteAhead ahead = freeRouteAhead(stage, position);
     float free = 1.0 - smoothstep(FORESIGHT_FREELY, FORESIGHT_NO_MORE, float(sensed));
     if (FORESIGHT_ENABLED && free > 0.0) {  // in a crowd, and so for most, one look will do
-        vec2 lead = velocity * (FORESIGHT_TIME * free * (1.0 - nervousness));
+        vec2 lead = velocity * ((FORESIGHT_TIME + untilItCounts()) * free * (1.0 - nervousness));
         RouteAhead soon = freeRouteAhead(stage, position + lead);
         if (abs(soon.remaining - ahead.remaining) <= length(lead) * FORESIGHT_SAME_WAY) ahead = soon;
     }

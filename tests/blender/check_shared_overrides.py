@@ -6,6 +6,7 @@ import os
 import sys
 
 import bpy
+import numpy
 
 addon, folder = sys.argv[-2:]
 sys.path[:0] = [addon]
@@ -34,8 +35,12 @@ def somebody_else_hides(row):
     entry = dict(next(entry for entry in document["overrides"] if entry["id"] == 1))
     with open(os.path.join(folder, "street", "agents.csv"), encoding="utf-8") as table:
         keys, *lines = [line.rstrip("\n").split(",") for line in table]
+    frame = int(lines[row][keys.index("spawn_frame")])
+    with open(os.path.join(folder, "street", "bake.json"), encoding="utf-8") as file:
+        origin = json.load(file)["origin"]
+    place = numpy.load(os.path.join(folder, "street", "streams", "pos.npy"), mmap_mode="r")[frame, row]
     entry["id"] = row
-    entry["spawn"] = {**entry["spawn"], "frame": int(lines[row][keys.index("spawn_frame")])}
+    entry["spawn"] = {"frame": frame, "position": [float(value) for value in place + origin]}
     document["overrides"].append(entry)
     with open(FILE, "w", encoding="utf-8") as file:
         json.dump(document, file)
