@@ -18,11 +18,13 @@ namespace {
 constexpr const char* kStreamBlock = "StreamBlock";
 
 /// A stream may look at everything, and writes nothing but itself.
-gl::Declaration packingOf(const StreamInfo& info, const gl::ShaderLibrary& library) {
+gl::Declaration packingOf(const StreamInfo& info, const gl::ShaderLibrary& library,
+                          const gl::Definitions& definitions) {
     gl::Declaration declaration = {
         "stream " + std::string(info.name), {std::string(info.shader)}, {}, {kStreamBlock}};
     std::vector<std::string> files;
-    for (const gl::Access& access : gl::accessIn(library.load(declaration.shaders.front(), {}, files)))
+    for (const gl::Access& access :
+         gl::accessIn(library.load(declaration.shaders.front(), definitions, files)))
         if (access.name != kStreamBlock) declaration.reads.push_back(access.name);
     return declaration;
 }
@@ -210,7 +212,10 @@ void Simulation::packStream(Stream stream, const gl::Buffer& buffer) {
     Parts& p = *parts_;
     const StreamInfo& info = infoOf(stream);
     std::optional<gl::ComputeProgram>& program = p.pack_streams[stream];
-    if (!program) program = p.buffers.connect(p.library, packingOf(info, p.library));
+    if (!program) {
+        const gl::Definitions definitions = p.buffers.definitions();
+        program = p.buffers.connect(p.library, packingOf(info, p.library, definitions), definitions);
+    }
     if (info.needs_diagram) program->bind("PixelCounts", p.diagram.countPixels());
     program->bind(kStreamBlock, buffer);
     program->dispatch(p.rows);

@@ -163,7 +163,10 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
 
 std::vector<Pass> Simulation::Parts::passesOfStep() {
     const auto enter = [this] {
+        if (!anybody_enters_later && !boarding) return;
         if (anybody_enters_later) spawner.run(step_start, steps_done);
+        // Who has come in walks on at once, and others see them: until the next decision nobody gets a slot.
+        cells.run();
     };
     const auto build = [this] {
         if (sensing.needsDiagram()) stopped = !diagram.build(extent);
