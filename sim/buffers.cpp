@@ -29,10 +29,13 @@ float fastest(const authoring::Scene& scene) {
     return speed;
 }
 
-/// They may begin and stop at once, whatever legs can do.
-bool anybodyIsGiven(const authoring::Scene& scene) {
-    return std::ranges::any_of(
+/// Whether somebody may be moved as legs cannot: along a given way, by a vehicle, the walls of a cabin, or
+/// ground that moves.
+bool legsAreNotAll(const authoring::Scene& scene) {
+    const bool is_given = std::ranges::any_of(
         scene.people, [](const gpu::Person& person) { return (person.flags & gpu::PERSON_IS_GIVEN) != 0; });
+    return is_given || !scene.traffic.empty() || !scene.chart_map.belts.empty() ||
+           !scene.chart_map.lifts.empty();
 }
 
 std::vector<gpu::AgentState> initialStates(const authoring::Scene& scene) {
@@ -172,7 +175,7 @@ gpu::Parameters makeParameters(const authoring::Scene& scene) {
     const float walked = 2.0f * fastest(scene) * parameters.decision_seconds, pushed = 2.0f * kPushAllowance;
     const float changed = static_cast<float>(settings.maximum_acceleration) * parameters.decision_seconds *
                           parameters.decision_seconds;
-    parameters.contact_slack = pushed + (anybodyIsGiven(scene) ? walked : std::min(changed, walked));
+    parameters.contact_slack = pushed + (legsAreNotAll(scene) ? walked : std::min(changed, walked));
     parameters.contact_range =
         std::max(static_cast<float>(settings.contact_range), 2.0f * scene.largest_radius + walked + pushed);
     parameters.cells_minimum = scene.minimum;

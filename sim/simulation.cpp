@@ -199,7 +199,8 @@ void Simulation::packFrame(const gl::Buffer& buffer) {
 }
 
 bool Simulation::buildDiagramNow(Extent extent) {
-    if (!parts_->decidesAfter(parts_->steps_done)) parts_->kept.putAside();
+    // Who looks for room before people are sorted anew (seats) does so among the slots of the last decision.
+    if (!parts_->decidesAfter(parts_->steps_done) || parts_->seats) parts_->kept.putAside();
     parts_->cells.run(CellSort::SiteIds::rows);
     return parts_->diagram.build(extent);
 }

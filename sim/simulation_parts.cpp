@@ -147,6 +147,9 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
       costs(cost_model),
       look(double{lookOf(scene, parameters)}),
       rows(parameters.row_count),
+      anybody_enters_later(std::ranges::any_of(
+          scene.people,
+          [](const gpu::Person& person) { return (person.flags & gpu::PERSON_PRESENT_AT_START) == 0; })),
       passes(passesOfStep()) {
     // Slots are in the order of the cells, and cells and diagram have one origin.
     const BinGrid cell_grid(parameters.cell_size * parameters.pixels_per_metre,
@@ -156,17 +159,11 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
     load = diagramLoad(scene, parameters);
     for (const gpu::Platform& platform : scene.traffic.platforms)
         platform_sides.push_back(platform.side);
-    anybody_enters_later = std::any_of(
-        scene.people.begin(), scene.people.end(),
-        [](const gpu::Person& person) { return (person.flags & gpu::PERSON_PRESENT_AT_START) == 0; });
 }
 
 std::vector<Pass> Simulation::Parts::passesOfStep() {
     const auto enter = [this] {
-        if (!anybody_enters_later && !boarding) return;
         if (anybody_enters_later) spawner.run(step_start, steps_done);
-        // Who has come in walks on at once, and others see them: until the next decision nobody gets a slot.
-        cells.run();
     };
     const auto build = [this] {
         if (sensing.needsDiagram()) stopped = !diagram.build(extent);
@@ -215,6 +212,9 @@ std::vector<Pass> Simulation::Parts::passesOfStep() {
                              {"avoidance", decide},
                              {"contacts", touch},
                              {"motion", move}};
+    // Who has come in walks on at once, and others see them: until the next decision nobody gets a slot.
+    if (anybody_enters_later || boarding)
+        all.insert(all.begin() + 3, {"cells", when_deciding([this] { cells.run(); })});
     if (behaviour)
         all.insert(all.begin() + 1, {"behaviour", when_deciding([this] {
                                          if (seats) seats->think(step_start, steps_done);
@@ -234,7 +234,7 @@ std::vector<Pass> Simulation::Parts::passesOfStep() {
 
 void Simulation::Parts::beginStep() {
     decides = decidesAfter(steps_done);
-    if (!decides) kept.takeBack();
+    if (!decides || seats) kept.takeBack();
     kept.forget();
     step_start = now();
     ++steps_done;
@@ -290,9 +290,12 @@ std::vector<std::pair<std::string, gl::Buffer*>> Simulation::Parts::remembered(s
             found.push_back(each);
     for (const auto& each : congestion.remembered())
         found.push_back(each);
+    const auto is_new = [&](const std::string& name) {
+        return std::ranges::none_of(found, [&](const auto& each) { return each.first == name; });
+    };
     if (!decidesAfter(steps))
         for (const auto& each : kept.parts())
-            found.push_back(each);
+            if (is_new(each.first)) found.push_back(each);
     return found;
 }
 

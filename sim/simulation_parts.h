@@ -87,7 +87,7 @@ struct Simulation::Parts {
     std::uint32_t steps_done = 0;
     bool decides = true;      // in this step people look round
     float step_start = 0.0f;  // s, simulation time
-    bool anybody_enters_later = false;
+    bool anybody_enters_later;
     std::vector<Pass> passes;  // of a step, in order; they refer to this
 
     Parts(const Parts&) = delete;

@@ -9,6 +9,7 @@ import shutil
 import sys
 import time
 import typing
+from unittest import mock
 
 import benchmarks
 import blender
@@ -100,12 +101,11 @@ def made(runs, name):
 def made_at_once(runs, names, jobs):
     """Those that take longest first."""
     names = sorted(names, key=lambda name: -TABLES[name].minutes)
-    os.environ["LP_NUM_THREADS"] = "0"  # the software renderer's threads: each program keeps to its core
-    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+    # The software renderer's threads: each program keeps to its core.
+    with mock.patch.dict(os.environ, {"LP_NUM_THREADS": "0"}), concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         running = {pool.submit(made, runs, name): name for name in names}
         for done in concurrent.futures.as_completed(running):
             yield running[done], done.result()
-    del os.environ["LP_NUM_THREADS"]
 
 
 def made_in_turn(runs, names):

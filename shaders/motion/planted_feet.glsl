@@ -13,9 +13,10 @@
 // planted feet. To the side where one would like to go does worse: before a passage all of them like its middle, and
 // they wedge each other.
 //
-// Who waits for its turn, in a line or in a stream that goes one way, has nobody to slip past, and its feet give more:
-// planted firmly, they break the stream up into waves of stopping and going. And who is among people who only stand is pushed by
-// nobody: it is itself that presses, and steps back where it has gone astray among them.
+// Who waits for its turn in a stream that goes one way has nobody to slip past, and its feet give more: planted firmly,
+// they break the stream up into waves of stopping and going. So do those who wait in a line, where all others stand and
+// places are steps apart. Who is among people who only stand otherwise is pushed by nobody: it is itself that presses,
+// and steps back where it has gone astray among them.
 // Needs shaders/motion/under_way.glsl.
 
 /// m/s: as slowly as the first nobody walks backwards; from the second on one cannot but go along.
