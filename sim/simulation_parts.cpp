@@ -192,8 +192,13 @@ std::vector<Pass> Simulation::Parts::passesOfStep() {
         if (seams) seams->cross();
         cells.run();
     };
-    const auto serve = [this] {
-        if (lifts) lifts->serve();
+    const auto ride = [this] {
+        lifts->move();
+        if (decides) lifts->serve();
+    };
+    const auto board = [this] {
+        boarding->move();
+        if (decides) boarding->serve(step_start, steps_done);
     };
     const auto touch = [this] {
         const auto hold = [this](const gl::Buffer& targets) {
@@ -220,10 +225,8 @@ std::vector<Pass> Simulation::Parts::passesOfStep() {
                                          if (seats) seats->think(step_start, steps_done);
                                          behaviour->run(step_start, steps_done);
                                      })});
-    if (lifts) all.insert(all.begin() + 1, {"lifts", when_deciding(serve)});
-    if (boarding)
-        all.insert(all.begin() + 1,
-                   {"boarding", when_deciding([this] { boarding->serve(step_start, steps_done); })});
+    if (lifts) all.insert(all.begin() + 1, {"lifts", ride});
+    if (boarding) all.insert(all.begin() + 1, {"boarding", board});
     if (sizes) all.insert(all.begin() + 1, {"sizes", when_deciding([this] { sizes->run(step_start); })});
     if (seats) all.insert(all.begin(), Pass{"seats", [this] { seats->lead(decides, steps_done); }});
     // Before anybody looks where they are.

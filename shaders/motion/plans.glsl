@@ -36,11 +36,23 @@ void askToJoin(AgentState state, Stage stage, uint row) {
 #endif
 }
 
+uint stepAfter(float seconds) { return steps_done + max(uint(seconds / parameters.step_seconds), 1u); }
+
+/// Whether what comes next is to stand on where one stands: behaviours tell what people do then, once these decide.
+bool staysThere(Stage left, Stage next) {
+    return next.line == NO_INDEX && next.point == left.point && next.dwell > 0.0 && next.dwell < DWELL_FOR_GOOD;
+}
+
 void goOn(inout AgentState state) {
+    bool stood = state.leave_step != 0u;
     state.stage += 1u;
     state.leave_step = 0u;
     state.ticket = NO_INDEX;
-    if (state.stage < state.stage_end) return;
+    if (state.stage < state.stage_end) {
+        Stage next = stages[state.stage];
+        if (stood && staysThere(stages[state.stage - 1u], next)) state.leave_step = stepAfter(next.dwell);
+        return;
+    }
     state.stage = state.stage_end - 1u;
     state.status = STATUS_GONE;
     state.arrival_step = steps_done;
@@ -62,7 +74,7 @@ void followRoute(inout AgentState state, Stage stage, RouteAhead ahead, uint row
         state.status = STATUS_ARRIVED;
         state.arrival_step = steps_done;
     } else {
-        state.leave_step = steps_done + max(uint(stage.dwell / parameters.step_seconds), 1u);
+        state.leave_step = stepAfter(stage.dwell);
     }
 }
 
