@@ -29,15 +29,6 @@ float fastest(const authoring::Scene& scene) {
     return speed;
 }
 
-/// Whether somebody may be moved as legs cannot: along a given way, by a vehicle, the walls of a cabin, or
-/// ground that moves.
-bool legsAreNotAll(const authoring::Scene& scene) {
-    const bool is_given = std::ranges::any_of(
-        scene.people, [](const gpu::Person& person) { return (person.flags & gpu::PERSON_IS_GIVEN) != 0; });
-    return is_given || !scene.traffic.empty() || !scene.chart_map.belts.empty() ||
-           !scene.chart_map.lifts.empty();
-}
-
 std::vector<gpu::AgentState> initialStates(const authoring::Scene& scene) {
     std::vector<gpu::AgentState> states;
     states.reserve(scene.people.size());
@@ -171,13 +162,10 @@ gpu::Parameters makeParameters(const authoring::Scene& scene) {
     parameters.step_seconds = static_cast<float>(1.0 / (settings.fps * settings.substeps));
     parameters.decision_seconds = parameters.step_seconds * static_cast<float>(settings.stepsPerDecision());
     parameters.largest_radius = scene.largest_radius;
-    // Both may walk, both may change how they walk, and both may be pushed.
-    const float walked = 2.0f * fastest(scene) * parameters.decision_seconds, pushed = 2.0f * kPushAllowance;
-    const float changed = static_cast<float>(settings.maximum_acceleration) * parameters.decision_seconds *
-                          parameters.decision_seconds;
-    parameters.contact_slack = pushed + (legsAreNotAll(scene) ? walked : std::min(changed, walked));
-    parameters.contact_range =
-        std::max(static_cast<float>(settings.contact_range), 2.0f * scene.largest_radius + walked + pushed);
+    // Both may walk, and both may be pushed.
+    parameters.contact_slack = 2.0f * fastest(scene) * parameters.decision_seconds + 2.0f * kPushAllowance;
+    parameters.contact_range = std::max(static_cast<float>(settings.contact_range),
+                                        2.0f * scene.largest_radius + parameters.contact_slack);
     parameters.cells_minimum = scene.minimum;
     parameters.cell_size = parameters.contact_range;
     // Of charts, whole numbers of cells make a shift.

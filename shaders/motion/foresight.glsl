@@ -13,12 +13,11 @@ RouteAhead wayAhead(Stage stage, vec2 position, vec2 velocity, uint sensed, floa
     RouteAhead ahead = freeRouteAhead(stage, position);
     float free = 1.0 - smoothstep(FORESIGHT_FREELY, FORESIGHT_NO_MORE, float(sensed));
     if (FORESIGHT_ENABLED && free > 0.0) {  // in a crowd, and so for most, one look will do
-        vec2 seconds = vec2(FORESIGHT_TIME, laterThanUsual()) * (free * (1.0 - nervousness));
-        vec2 lead = velocity * (seconds.x + seconds.y);
+        vec2 lead = velocity * ((FORESIGHT_TIME + laterThanUsual()) * free * (1.0 - nervousness));
         RouteAhead soon = freeRouteAhead(stage, position + lead);
         if (abs(soon.remaining - ahead.remaining) <= length(lead) * FORESIGHT_SAME_WAY) {
             ahead = soon;
-            ahead.remaining += seconds.y * length(velocity);  // nobody slows down any sooner
+            ahead.remaining += laterThanUsual() * free * (1.0 - nervousness) * length(velocity);  // none slows down sooner
         }
     }
     return heedingJams(stage, position, ahead);

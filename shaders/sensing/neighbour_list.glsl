@@ -48,7 +48,7 @@ void keepNearest(float distance_squared, uint key) {
 }
 
 /// Everybody within the contact range, exactly. Those who may touch before the next decision are listed for the contact
-/// pass: in a crush most of those around move as oneself does, and only the nearest are.
+/// pass.
 /// @returns the touch word
 uint feelContacts(Body self, uint self_slot) {
     ivec2 cell = cellOf(self.position);
@@ -63,8 +63,7 @@ uint feelContacts(Body self, uint self_slot) {
             float distance_squared = dot(offset, offset);
             if (distance_squared > range_squared || slot == self_slot) continue;
             keepNearest(distance_squared, slot);
-            float approach = distance(bodies[slot].velocity, self.velocity) * parameters.decision_seconds;
-            float touch_distance = reach + bodies[slot].radius + approach;
+            float touch_distance = reach + bodies[slot].radius;
             if (distance_squared > touch_distance * touch_distance) continue;
             if (touching < TOUCH_CAPACITY) touch_lists[self_slot * TOUCH_CAPACITY + touching] = slot;
             ++touching;

@@ -216,8 +216,8 @@ struct Parameters {
     float time_horizon;       // s
     float wall_time_horizon;  // s
     float contact_range;      // m
-    float contact_slack;      // m: two people further apart than their radii, this and what their velocities
-                              // make of decision_seconds cannot touch before the next decision
+    float contact_slack;      // m: two people further apart than their radii and this cannot touch before the
+                              // next decision
     float maximum_acceleration;  // m/s^2
     uint site_rows;              // rows of people, and as many for each image that one may have
     float chart_cell;            // m, of the raster of charts, which begins where the fields' grid does

@@ -220,9 +220,7 @@ TEST_P(TouchListTest, HoldsWhomSomebodyMayMeetBeforeTheNext) {
         std::vector<std::uint32_t> expected;
         for (std::uint32_t other = 0; other < people; ++other) {
             const float away = glm::distance(rows[slot].position, rows[other].position);
-            const float closing = glm::distance(rows[slot].velocity, rows[other].velocity);
-            const float reach = rows[slot].radius + rows[other].radius + parameters.contact_slack +
-                                closing * parameters.decision_seconds;
+            const float reach = rows[slot].radius + rows[other].radius + parameters.contact_slack;
             if (other != slot && away < std::min(reach, parameters.contact_range)) expected.push_back(other);
         }
         const std::uint32_t count = words[slot] & gpu::TOUCH_COUNT_MASK;
