@@ -3,13 +3,11 @@
 
 import argparse
 import concurrent.futures
-import os
 import pathlib
 import shutil
 import sys
 import time
 import typing
-from unittest import mock
 
 import benchmarks
 import blender
@@ -18,7 +16,7 @@ import jobs
 import motion
 import pages
 import storeys
-from runs import ROOT, Runs
+from runs import ROOT, Runs, on_one_core
 
 
 class Table(typing.NamedTuple):
@@ -77,6 +75,8 @@ def arguments():
         help="N tables at once, each on one core; those with figures of time come after them, one by one",
     )
     options = parser.parse_args()
+    if options.jobs < 1:
+        parser.error("--jobs takes 1 or more")
     unknown = [name for name in options.names if name not in TABLES]
     if unknown:
         parser.error(f"no table is called {', '.join(unknown)}: --list names them")
@@ -101,8 +101,7 @@ def made(runs, name):
 def made_at_once(runs, names, jobs):
     """Those that take longest first."""
     names = sorted(names, key=lambda name: -TABLES[name].minutes)
-    # The software renderer's threads: each program keeps to its core.
-    with mock.patch.dict(os.environ, {"LP_NUM_THREADS": "0"}), concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+    with on_one_core(), concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         running = {pool.submit(made, runs, name): name for name in names}
         for done in concurrent.futures.as_completed(running):
             yield running[done], done.result()

@@ -13,6 +13,7 @@ import sys
 import tempfile
 import threading
 import time
+from unittest import mock
 
 import reading
 
@@ -22,6 +23,11 @@ QUICK_SECONDS = 3
 
 def output_of(*command):
     return subprocess.run([str(word) for word in command], check=True, stdout=subprocess.PIPE, text=True).stdout
+
+
+def on_one_core():
+    """While it lasts, programs do without the software renderer's threads."""
+    return mock.patch.dict(os.environ, {"LP_NUM_THREADS": "0"})
 
 
 def processor():
