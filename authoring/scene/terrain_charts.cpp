@@ -24,15 +24,16 @@
 namespace throng::authoring {
 namespace {
 
-constexpr double kAround = 50.0;                // m: so far from all that the layout has, ground counts
-constexpr double kMostLatticeCells = 4.0e6;     // of the lattice
-constexpr double kMostPlaneCells = 2.0e7;       // of the plane
-constexpr double kMostFaces = 2.0e9;            // to look at
-constexpr double kStoreysApart = 2.0;           // m
-constexpr double kMostLooks = 400'000.0;        // at the mesh, for storeys
-constexpr double kEdgeHeight = 1.1;             // m: people see over the ends of ground
-constexpr double kEdge = 0.02;                  // m
-constexpr double kUnreachedWorthTelling = 4.0;  // m^2 of ground that nobody gets to
+constexpr double kAround = 50.0;                  // m: so far from all that the layout has, ground counts
+constexpr double kMostLatticeCells = 4.0e6;       // of the lattice
+constexpr double kMostPlaneCells = 2.0e7;         // of the plane
+constexpr double kMostFaces = 2.0e9;              // to look at
+constexpr double kStoreysApart = 2.0;             // m
+constexpr double kMostLooks = 400'000.0;          // at the mesh, for storeys
+constexpr double kMostFacesOfAQuickLook = 2.0e8;  // a second: 500 above each other at every look
+constexpr double kEdgeHeight = 1.1;               // m: people see over the ends of ground
+constexpr double kEdge = 0.02;                    // m
+constexpr double kUnreachedWorthTelling = 4.0;    // m^2 of ground that nobody gets to
 constexpr std::size_t kMostTold = 10;
 constexpr double kAlong = 0.25;  // m between looks at what a line lies on
 
@@ -70,7 +71,7 @@ bool mayHaveStoreys(const TerrainMesh& mesh, const Bounds& bounds) {
     const glm::dvec2 size = upper - lower;
     const double step = std::max(0.5, std::sqrt(size.x * size.y / kMostLooks));
     const FaceGrid faces(mesh, lower, glm::vec2(0.0f), glm::vec2(size), FaceGrid::Keep::looking_up);
-    if (faces.layers() * size.x * size.y > kMostFaces * step * step) return false;
+    if (faces.layers() * size.x * size.y > kMostFacesOfAQuickLook * step * step) return false;
     const glm::ivec2 looks(glm::ceil(size / step - 0.5));
     for (int y = 0; y < looks.y; ++y)
         for (int x = 0; x < looks.x; ++x) {
