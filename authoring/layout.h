@@ -86,12 +86,12 @@ enum class Proximity {
 };
 
 struct SimulationSettings {
-    double duration = 10.0;           ///< s, (0, 86400]: the length of the shot
-    double warmup = 0.0;              ///< s, [0, 3600]: simulated before the first frame and not recorded
-    double fps = 24.0;                ///< frames/s, [1, 240]: the shot's frame rate
-    int substeps = 2;                 ///< simulation steps per frame, [1, 64]
+    double duration = 10.0;            ///< s, (0, 86400]: the length of the shot
+    double warmup = 0.0;               ///< s, [0, 3600]: simulated before the first frame and not recorded
+    double fps = 24.0;                 ///< frames/s, [1, 240]: the shot's frame rate
+    int substeps = 2;                  ///< simulation steps per frame, [1, 64]
     double decision_interval = 0.05;  ///< s, [0, 0.25]: the longest from one decision of people to the next
-    std::uint64_t seed = 1;           ///< [0, 2^53]: same layout, seed and driver give the same bytes
+    std::uint64_t seed = 1;            ///< [0, 2^53]: same layout, seed and driver give the same bytes
     double tile_radius =
         0.6;  ///< m, [0.05, 10]: a site's tile in the diagram; at least the largest body radius
     double field_of_view = 200.0;  ///< degrees, (0, 360]: what a person sees ahead
@@ -115,9 +115,11 @@ struct SimulationSettings {
     double maximum_acceleration = 4.0;  ///< m/s^2, [0.1, 100]
     MotionSettings motion;              ///< the layout's `motion`
 
-    /// Steps from one decision to the next: of a frame's steps an equal share, so that each frame begins with
-    /// one.
+    /// Steps from one decision to the next: whole frames, or where not even one fits the interval, an equal
+    /// share of a frame's steps.
     int stepsPerDecision() const {
+        const int whole_frames = static_cast<int>(decision_interval * fps + 1e-9);
+        if (whole_frames > 0) return whole_frames * substeps;
         int steps = 1;
         for (int each = 2; each <= substeps; ++each)
             if (substeps % each == 0 && each <= decision_interval * fps * substeps + 1e-9) steps = each;

@@ -11,6 +11,8 @@ const gl::Declaration kBoardingCensus = {
      "PlatformPoints", "PlatformVehicles", "VehicleServices", "Passengers", "DoorStates", "DoorWishesBlock",
      "NewAboard"},
     {"States", "Passengers", "DoorWishesBlock", "NewAboard"}};
+const gl::Declaration kBoardingMove = {
+    "boarding", {"shaders/boarding/move.comp"}, {"ParametersBlock", "VehicleServices"}, {"VehicleServices"}};
 const gl::Declaration kBoardingControl = {
     "boarding",
     {"shaders/boarding/control.comp"},
@@ -32,9 +34,14 @@ Boarding::Boarding(const gl::ShaderLibrary& library, Buffers& buffers, const aut
                    const MotionSettings& rules)
     : buffers_(buffers),
       rows_(static_cast<std::uint32_t>(scene.people.size())),
+      move_(buffers.connect(library, kBoardingMove, buffers.definitions())),
       census_(buffers.connect(library, kBoardingCensus, buffers.definitions())),
       control_(buffers.connect(library, kBoardingControl, buffers.definitions())),
       wish_(buffers.connect(library, kBoardingWish, buffers.definitions(rules))) {}
+
+void Boarding::move() {
+    move_.dispatch(1);
+}
 
 void Boarding::serve(float now, std::uint32_t steps_done) {
     buffers_.door_wishes.fill(0);

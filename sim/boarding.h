@@ -11,7 +11,9 @@ class Boarding {
   public:
     Boarding(const gl::ShaderLibrary& library, Buffers& buffers, const authoring::Scene& scene,
              const MotionSettings& rules);
-    /// Where people decide, before they do: finds out who waits where, and opens and closes doors.
+    /// In every step: leaves of doors go on.
+    void move();
+    /// Where people decide, before they do: finds out who waits where, and what doors do next.
     void serve(float now, std::uint32_t steps_done);
     /// After steering: what those want who have to do with a door.
     void wish();
@@ -19,7 +21,7 @@ class Boarding {
   private:
     Buffers& buffers_;
     std::uint32_t rows_;
-    gl::ComputeProgram census_, control_, wish_;
+    gl::ComputeProgram move_, census_, control_, wish_;
 };
 
 }  // namespace throng::sim

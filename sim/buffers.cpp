@@ -16,7 +16,8 @@
 namespace throng::sim {
 namespace {
 
-// How far contact may move somebody in one step and still be sure to meet everybody it is moved into, m.
+// How far contact may move somebody between two decisions and still be sure to meet everybody it is moved
+// into, m.
 constexpr float kPushAllowance = 0.05f;
 
 constexpr const char* kSitter = "person with a seat";
@@ -127,6 +128,25 @@ std::vector<gpu::Mind> mindsOf(const authoring::Scene& scene) {
     return minds;
 }
 
+/// What only some scenes have: programs are compiled without what theirs lacks, as most devices work through
+/// code that applies to nobody, too.
+gl::Definitions peculiaritiesOf(const authoring::Scene& scene) {
+    const auto anybody = [&](const auto& is) { return std::ranges::any_of(scene.people, is); };
+    const bool may_climb = scene.terrain || !scene.chart_map.empty();
+    gl::Definitions found;
+    if (isWideSite(scene.minimum, scene.maximum) && scene.chart_map.empty())
+        found.emplace_back("WIDE_SITE", "1");  // places are too coarse for steps
+    if (!scene.road_distance.empty()) found.emplace_back("ROADS", "1");
+    if (!scene.plan_changes.empty()) found.emplace_back("PLAN_CHANGES", "1");
+    if (!scene.lines.empty()) found.emplace_back("WAITING_LINES", "1");
+    if (anybody([](const gpu::Person& person) { return person.party_size > 1; }))
+        found.emplace_back("PARTIES", "1");
+    if (may_climb || !scene.traffic.empty() ||
+        anybody([](const gpu::Person& person) { return person.headway > 0.0f; }))
+        found.emplace_back("HEADWAYS", "1");
+    return found;
+}
+
 /// A uniform block is as large as its shader says.
 std::vector<gpu::Belt> roomForAll(std::vector<gpu::Belt> belts) {
     if (!belts.empty()) belts.resize(gpu::NO_CHART);
@@ -181,13 +201,11 @@ gpu::Parameters makeParameters(const authoring::Scene& scene) {
     parameters.detour_cell = scene.detours.grid.cell_size;
     parameters.detour_width = scene.detours.grid.width;
     parameters.detour_height = scene.detours.grid.height;
-    parameters.is_wide = isWideSite(scene.minimum, scene.maximum) && scene.chart_map.empty() ? 1 : 0;
     const authoring::ChartMap& charts = scene.chart_map;
     parameters.site_rows = parameters.row_count * (1 + charts.most_images);
     parameters.chart_cell = charts.grid.cell_size;
     parameters.chart_width = charts.grid.width;
     parameters.chart_height = charts.grid.height;
-    parameters.has_roads = scene.road_distance.empty() ? 0 : 1;
     return parameters;
 }
 
@@ -244,7 +262,8 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
       has_bodies_(!std::ranges::all_of(scene.people, isDisc)),
       has_charts_(!scene.chart_map.empty()),
       has_belts_(!scene.chart_map.belts.empty()),
-      has_seats_(!scene.seats.empty()) {
+      has_seats_(!scene.seats.empty()),
+      peculiarities_(peculiaritiesOf(scene)) {
     const std::size_t rows = parameter_values.site_rows;
     const std::size_t cells = std::size_t{parameter_values.cells_width} * parameter_values.cells_height;
     const WallIndex walls = indexWalls(scene.wall_segments, parameter_values,
@@ -405,6 +424,7 @@ gl::Definitions Buffers::definitions() const {
     if (hasCharts()) all.emplace_back("CHARTS", "1");
     if (has_belts_) all.emplace_back("BELTS", "1");
     if (has_seats_) all.emplace_back("SEATS", "1");
+    all.insert(all.end(), peculiarities_.begin(), peculiarities_.end());
     all.insert(all.end(), lifts_.begin(), lifts_.end());
     all.insert(all.end(), traffic_.begin(), traffic_.end());
     return all;

@@ -85,6 +85,7 @@ struct Buffers {
     void makeBoarding(const authoring::SceneTraffic& traffic, std::size_t people);
 
     bool has_bodies_, has_charts_, has_belts_, has_seats_;
+    gl::Definitions peculiarities_;
     gl::Definitions traffic_;  // how much of it there is
     gl::Definitions lifts_;    // likewise
 };

@@ -11,17 +11,18 @@ namespace {
 
 constexpr std::uint32_t kStepsPerRound = 4;
 
-// Cells of all fields that are brought up to date at once: so many for each person, and in small scenes so
-// many in all. Where there are more (a fair, where everybody has goals of their own), rounds take longer:
-// what grows with the number of goals is not paid in every step. News of a jam still gets on by some 2 m/s
-// there, which is faster than jams do.
-constexpr std::uint64_t kCellsOfEach = 128, kCellsOfAll = 128 * 1024;
+// Cells of all fields that are brought up to date in a second: so many for each person, and in small scenes
+// so many in all. Where there are more (a fair, where everybody has goals of their own), rounds take longer:
+// what grows with the number of goals is not paid at every decision. News of a jam still gets on by some
+// 2 m/s there, which is faster than jams do.
+constexpr double kCellsOfEach = 24 * 128, kCellsOfAll = 24 * 128 * 1024;
 
 /// How many times a round's fields have to be split.
+/// @param seconds from one run to the next
 std::uint32_t runsPerRound(std::uint32_t usual, std::uint64_t cells, std::uint64_t fields,
-                           std::uint64_t people) {
-    const std::uint64_t most =
-        std::max<std::uint64_t>(std::max(kCellsOfEach * people, kCellsOfAll) / cells, 1);
+                           std::uint64_t people, double seconds) {
+    const double at_once = seconds * std::max(kCellsOfEach * static_cast<double>(people), kCellsOfAll);
+    const auto most = static_cast<std::uint64_t>(std::max(at_once / static_cast<double>(cells), 1.0));
     return std::max(usual, static_cast<std::uint32_t>((fields + most - 1) / most));
 }
 
@@ -71,8 +72,8 @@ Congestion::Congestion(const gl::ShaderLibrary& library, Buffers& buffers, const
     cells_ = parameters.detour_width * parameters.detour_height;
     fields_ = static_cast<std::uint32_t>(detours.ground_of_field.size());
     const auto steps_per_run = static_cast<std::uint32_t>(scene.settings.stepsPerDecision());
-    runs_per_round_ =
-        runsPerRound(std::max(kStepsPerRound / steps_per_run, 1u), cells_, fields_, parameters.row_count);
+    runs_per_round_ = runsPerRound(std::max(kStepsPerRound / steps_per_run, 1u), cells_, fields_,
+                                   parameters.row_count, double{parameters.decision_seconds});
     fields_per_run_ = (fields_ + runs_per_round_ - 1) / runs_per_round_;
     blocks_ = (cells_ + gpu::PIXEL_GROUP_SIZE - 1) / gpu::PIXEL_GROUP_SIZE;
     std::vector<gpu::FieldMap> maps;

@@ -11,10 +11,14 @@ const gl::Declaration kCensus = {
      "ChartCells", "ChartShifts", "LiftPlans", "LiftStops", "CabinStops", "LiftStates", "LiftWishesBlock",
      "LiftQueues", "Riders"},
     {"LiftWishesBlock", "LiftQueues", "Riders"}};
+const gl::Declaration kMove = {"lifts",
+                               {"shaders/lifts/move.comp"},
+                               {"ParametersBlock", "LiftPlans", "LiftStops", "CabinStops", "LiftStates"},
+                               {"LiftStates"}};
 const gl::Declaration kControl = {"lifts",
                                   {"shaders/lifts/control.comp"},
-                                  {"ParametersBlock", "LiftPlans", "LiftStops", "CabinStops", "LiftStates",
-                                   "LiftWishesBlock", "Riders", "States", "ChartShifts"},
+                                  {"LiftPlans", "LiftStops", "CabinStops", "LiftStates", "LiftWishesBlock",
+                                   "Riders", "States", "ChartShifts"},
                                   {"LiftStates", "Riders"}};
 const gl::Declaration kWish = {
     "avoidance",
@@ -36,10 +40,15 @@ Lifts::Lifts(const gl::ShaderLibrary& library, Buffers& buffers, const authoring
     : buffers_(buffers),
       count_(scene.chart_map.lifts.plans.size()),
       rows_(static_cast<std::uint32_t>(scene.people.size())),
+      move_(buffers.connect(library, kMove, buffers.definitions())),
       census_(buffers.connect(library, kCensus, buffers.definitions(rules))),
       control_(buffers.connect(library, kControl, buffers.definitions())),
       wish_(buffers.connect(library, kWish, buffers.definitions(rules))),
       keep_out_(buffers.connect(library, kKeepOut, buffers.definitions(rules))) {}
+
+void Lifts::move() {
+    move_.dispatch(1);
+}
 
 void Lifts::serve() {
     buffers_.lift_wishes.fill(0);

@@ -11,8 +11,9 @@ class Lifts {
   public:
     Lifts(const gl::ShaderLibrary& library, Buffers& buffers, const authoring::Scene& scene,
           const MotionSettings& rules);
-    /// Where people decide, before they do: finds out who wants what, and moves the cabins and their doors
-    /// on.
+    /// In every step: cabins and their doors go on.
+    void move();
+    /// Where people decide, before they do: finds out who wants what, and what each lift does next.
     void serve();
     /// After steering: what those want who have to do with a lift.
     void wish();
@@ -25,7 +26,7 @@ class Lifts {
     Buffers& buffers_;
     std::size_t count_;
     std::uint32_t rows_;
-    gl::ComputeProgram census_, control_, wish_, keep_out_;
+    gl::ComputeProgram move_, census_, control_, wish_, keep_out_;
 };
 
 }  // namespace throng::sim

@@ -18,11 +18,13 @@ namespace {
 constexpr const char* kStreamBlock = "StreamBlock";
 
 /// A stream may look at everything, and writes nothing but itself.
-gl::Declaration packingOf(const StreamInfo& info, const gl::ShaderLibrary& library) {
+gl::Declaration packingOf(const StreamInfo& info, const gl::ShaderLibrary& library,
+                          const gl::Definitions& definitions) {
     gl::Declaration declaration = {
         "stream " + std::string(info.name), {std::string(info.shader)}, {}, {kStreamBlock}};
     std::vector<std::string> files;
-    for (const gl::Access& access : gl::accessIn(library.load(declaration.shaders.front(), {}, files)))
+    for (const gl::Access& access :
+         gl::accessIn(library.load(declaration.shaders.front(), definitions, files)))
         if (access.name != kStreamBlock) declaration.reads.push_back(access.name);
     return declaration;
 }
@@ -106,7 +108,8 @@ constexpr const char* kRoutesClock = "routes clock";
 Simulation::State Simulation::save() const {
     State state;
     state.steps_done = parts_->steps_done;
-    for (const auto& [name, buffer] : parts_->remembered())
+    parts_->kept.takeBack();
+    for (const auto& [name, buffer] : parts_->remembered(state.steps_done))
         state.parts.emplace_back(name, buffer->download<std::byte>(buffer->bytes()));
     const Congestion::Clock clock = parts_->congestion.clock();
     const auto bytes = std::as_bytes(std::span(&clock, 1));
@@ -124,7 +127,7 @@ void Simulation::restore(const State& state) {
     // Ground as the last step left it: which of its news has spread, the state tells.
     p.steps_done = std::max(state.steps_done, 1u) - 1;
     if (state.steps_done > 0) p.congestion.chargeGround(p.now());
-    for (const auto& [name, buffer] : p.remembered())
+    for (const auto& [name, buffer] : p.remembered(state.steps_done))
         buffer->upload(part(name, buffer->bytes()));
     Congestion::Clock clock;
     std::memcpy(&clock, part(kRoutesClock, sizeof clock).data(), sizeof clock);
@@ -135,7 +138,7 @@ void Simulation::restore(const State& state) {
         p.gates.move(p.now());
     }
     p.steps_done = state.steps_done;
-    p.has_decided = false;
+    p.kept.forget();
 }
 
 void Simulation::adaptTo(std::uint32_t people_present) {
@@ -196,7 +199,8 @@ void Simulation::packFrame(const gl::Buffer& buffer) {
 }
 
 bool Simulation::buildDiagramNow(Extent extent) {
-    parts_->has_decided = false;  // the order is another one
+    // Who looks for room before people are sorted anew (seats) does so among the slots of the last decision.
+    if (!parts_->decidesAfter(parts_->steps_done) || parts_->seats) parts_->kept.putAside();
     parts_->cells.run(CellSort::SiteIds::rows);
     return parts_->diagram.build(extent);
 }
@@ -209,7 +213,10 @@ void Simulation::packStream(Stream stream, const gl::Buffer& buffer) {
     Parts& p = *parts_;
     const StreamInfo& info = infoOf(stream);
     std::optional<gl::ComputeProgram>& program = p.pack_streams[stream];
-    if (!program) program = p.buffers.connect(p.library, packingOf(info, p.library));
+    if (!program) {
+        const gl::Definitions definitions = p.buffers.definitions();
+        program = p.buffers.connect(p.library, packingOf(info, p.library, definitions), definitions);
+    }
     if (info.needs_diagram) program->bind("PixelCounts", p.diagram.countPixels());
     program->bind(kStreamBlock, buffer);
     program->dispatch(p.rows);

@@ -103,6 +103,7 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
       buffers(scene, parameters),
       diagram(library, diagramOptions(scene, parameters, buffers), wallSites(scene, parameters)),
       cells(library, buffers, parameters),
+      kept(buffers),
       behaviour(scene.behaviours.empty()
                     ? std::nullopt
                     : std::optional<Behaviour>(std::in_place, library, buffers, scene, settings.motion)),
@@ -146,6 +147,9 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
       costs(cost_model),
       look(double{lookOf(scene, parameters)}),
       rows(parameters.row_count),
+      anybody_enters_later(std::ranges::any_of(
+          scene.people,
+          [](const gpu::Person& person) { return (person.flags & gpu::PERSON_PRESENT_AT_START) == 0; })),
       passes(passesOfStep()) {
     // Slots are in the order of the cells, and cells and diagram have one origin.
     const BinGrid cell_grid(parameters.cell_size * parameters.pixels_per_metre,
@@ -155,9 +159,6 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
     load = diagramLoad(scene, parameters);
     for (const gpu::Platform& platform : scene.traffic.platforms)
         platform_sides.push_back(platform.side);
-    anybody_enters_later = std::any_of(
-        scene.people.begin(), scene.people.end(),
-        [](const gpu::Person& person) { return (person.flags & gpu::PERSON_PRESENT_AT_START) == 0; });
 }
 
 std::vector<Pass> Simulation::Parts::passesOfStep() {
@@ -191,8 +192,13 @@ std::vector<Pass> Simulation::Parts::passesOfStep() {
         if (seams) seams->cross();
         cells.run();
     };
-    const auto serve = [this] {
-        if (lifts) lifts->serve();
+    const auto ride = [this] {
+        lifts->move();
+        if (decides) lifts->serve();
+    };
+    const auto board = [this] {
+        boarding->move();
+        if (decides) boarding->serve(step_start, steps_done);
     };
     const auto touch = [this] {
         const auto hold = [this](const gl::Buffer& targets) {
@@ -211,15 +217,16 @@ std::vector<Pass> Simulation::Parts::passesOfStep() {
                              {"avoidance", decide},
                              {"contacts", touch},
                              {"motion", move}};
+    // Who has come in walks on at once, and others see them: until the next decision nobody gets a slot.
+    if (anybody_enters_later || boarding)
+        all.insert(all.begin() + 3, {"cells", when_deciding([this] { cells.run(); })});
     if (behaviour)
         all.insert(all.begin() + 1, {"behaviour", when_deciding([this] {
                                          if (seats) seats->think(step_start, steps_done);
                                          behaviour->run(step_start, steps_done);
                                      })});
-    if (lifts) all.insert(all.begin() + 1, {"lifts", when_deciding(serve)});
-    if (boarding)
-        all.insert(all.begin() + 1,
-                   {"boarding", when_deciding([this] { boarding->serve(step_start, steps_done); })});
+    if (lifts) all.insert(all.begin() + 1, {"lifts", ride});
+    if (boarding) all.insert(all.begin() + 1, {"boarding", board});
     if (sizes) all.insert(all.begin() + 1, {"sizes", when_deciding([this] { sizes->run(step_start); })});
     if (seats) all.insert(all.begin(), Pass{"seats", [this] { seats->lead(decides, steps_done); }});
     // Before anybody looks where they are.
@@ -229,8 +236,9 @@ std::vector<Pass> Simulation::Parts::passesOfStep() {
 }
 
 void Simulation::Parts::beginStep() {
-    decides = !has_decided || steps_done % static_cast<std::uint32_t>(settings.stepsPerDecision()) == 0;
-    has_decided = true;
+    decides = decidesAfter(steps_done);
+    if (!decides || seats) kept.takeBack();
+    kept.forget();
     step_start = now();
     ++steps_done;
     gates.move(step_start);
@@ -257,7 +265,7 @@ void Simulation::Parts::changeWishes() {
                     timeAfter(steps_done - 1 + static_cast<std::uint32_t>(settings.stepsPerDecision())));
 }
 
-std::vector<std::pair<std::string, gl::Buffer*>> Simulation::Parts::remembered() {
+std::vector<std::pair<std::string, gl::Buffer*>> Simulation::Parts::remembered(std::uint32_t steps) {
     std::vector<std::pair<std::string, gl::Buffer*>> found = {{"states", &buffers.states},
                                                               {"waiting lines", &buffers.lines},
                                                               {"tickets", &buffers.tickets},
@@ -285,6 +293,12 @@ std::vector<std::pair<std::string, gl::Buffer*>> Simulation::Parts::remembered()
             found.push_back(each);
     for (const auto& each : congestion.remembered())
         found.push_back(each);
+    const auto is_new = [&](const std::string& name) {
+        return std::ranges::none_of(found, [&](const auto& each) { return each.first == name; });
+    };
+    if (!decidesAfter(steps))
+        for (const auto& each : kept.parts())
+            if (is_new(each.first)) found.push_back(each);
     return found;
 }
 

@@ -16,6 +16,7 @@
 #include "sim/gates.h"
 #include "sim/given.h"
 #include "sim/hiding.h"
+#include "sim/kept_decision.h"
 #include "sim/lifts.h"
 #include "sim/passes.h"
 #include "sim/patches.h"
@@ -51,6 +52,7 @@ struct Simulation::Parts {
     Buffers buffers;
     Diagram diagram;
     CellSort cells;
+    KeptDecision kept;
     std::optional<Behaviour> behaviour;  // none where nobody has one
     Congestion congestion;
     Spawner spawner;
@@ -83,10 +85,9 @@ struct Simulation::Parts {
 
     std::uint32_t rows = 0;
     std::uint32_t steps_done = 0;
-    bool decides = true;       // in this step people look round
-    bool has_decided = false;  // slots and lists are those of the last decision
-    float step_start = 0.0f;   // s, simulation time
-    bool anybody_enters_later = false;
+    bool decides = true;      // in this step people look round
+    float step_start = 0.0f;  // s, simulation time
+    bool anybody_enters_later;
     std::vector<Pass> passes;  // of a step, in order; they refer to this
 
     Parts(const Parts&) = delete;
@@ -96,8 +97,12 @@ struct Simulation::Parts {
     void beginStep();
     std::vector<Pass> passesOfStep();
 
-    /// What lives from one step to the next; everything else is worked out anew in each.
-    std::vector<std::pair<std::string, gl::Buffer*>> remembered();
+    /// Whether people look round in the step after so many.
+    bool decidesAfter(std::uint32_t steps) const {
+        return steps % static_cast<std::uint32_t>(settings.stepsPerDecision()) == 0;
+    }
+    /// What lives on after so many steps; everything else is worked out anew in the next.
+    std::vector<std::pair<std::string, gl::Buffer*>> remembered(std::uint32_t steps);
 
     /// Simulation time at the start of the coming step, s; negative during the warm-up.
     float now() const;

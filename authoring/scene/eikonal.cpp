@@ -280,13 +280,19 @@ std::vector<glm::vec2> directionsOf(const WalkMap& map, const std::vector<float>
     for (const std::uint32_t cell : targets)
         middle += cellCentre(grid, cell % grid.width, cell / grid.width) / static_cast<float>(targets.size());
     std::vector<glm::vec2> direction(distance.size(), glm::vec2(0.0f));
-    for (std::uint32_t cell = 0; cell < direction.size(); ++cell) {
-        if (distance[cell] == kUnreachable) continue;
-        direction[cell] = downhill(grid, distance, cell);
-        if (direction[cell] != glm::vec2(0.0f)) continue;
-        const glm::vec2 inward = middle - cellCentre(grid, cell % grid.width, cell / grid.width);
+    for (std::uint32_t cell = 0; cell < direction.size(); ++cell)
+        if (distance[cell] < kUnreachable) direction[cell] = downhill(grid, distance, cell);
+    const auto leadInward = [&](std::uint32_t cell, std::uint32_t seen) {
+        if (distance[cell] == kUnreachable || direction[cell] != glm::vec2(0.0f)) return;
+        const glm::vec2 inward = middle - cellCentre(grid, seen % grid.width, seen / grid.width);
         if (glm::length(inward) > 1.0e-4f) direction[cell] = glm::normalize(inward);
-    }
+    };
+    // What of a target lies beyond a seam is seen from where the target is.
+    if (map.seams)
+        for (const std::uint32_t cell : targets)
+            leadInward(map.seams->owner_of[cell], cell);
+    for (std::uint32_t cell = 0; cell < direction.size(); ++cell)
+        leadInward(cell, cell);
     if (map.seams)
         for (const auto& [image, owner] : map.seams->shown)
             direction[image] = direction[owner];

@@ -92,22 +92,36 @@ class Taking {
         if (!plane_.second.empty()) result_.second[to] = plane_.second[from];
     }
 
+    struct Person {
+        std::uint32_t chart = kNoChart;  ///< whose ground it stands on
+        glm::vec2 place;                 ///< m, in the plane, where it lies of this picture's chart
+    };
+
+    /// Who has walked over a seam is taken to the other chart with the next decision, but stands on its
+    /// ground.
+    Person personAt(std::uint32_t site) const {
+        const std::span<const float> told = places_.subspan(std::size_t{site} * kComponents, kComponents);
+        const glm::vec2 place(told[0], told[1]);
+        const auto chart = static_cast<std::size_t>(std::lround(told[2]));
+        if (chart >= bake_.charts->shifts.size()) return {kNoChart, place};
+        const std::uint32_t owner = chartsAt(bake_.charts->cells, place) >> 8 & kNoChart;
+        const glm::vec2 moved(bake_.charts->shifts[picture_.chart] - bake_.charts->shifts[chart]);
+        return {owner == kNoChart ? static_cast<std::uint32_t>(chart) : owner, place + moved};
+    }
+
     /// Whether somebody stands on this chart, and is not only seen over a seam of it.
     bool isHere(std::uint32_t site) const {
         if (site >= plane_.agent_count) return site != kNone;
-        return std::lround(places_[std::size_t{site} * kComponents + 2]) == static_cast<long>(picture_.chart);
+        return personAt(site).chart == picture_.chart;
     }
 
     /// Whether somebody is seen over a seam, but walks over or under this chart's own ground: on the upper
     /// end of a stair, say, beneath which the floor goes on.
     bool isAboveOrBelow(std::uint32_t site) const {
-        if (site >= plane_.agent_count || isHere(site)) return false;
-        const std::span<const float> place = places_.subspan(std::size_t{site} * kComponents, kComponents);
-        const auto chart = static_cast<std::size_t>(std::lround(place[2]));
-        if (chart >= bake_.charts->shifts.size()) return false;
-        const glm::vec2 moved(bake_.charts->shifts[picture_.chart] - bake_.charts->shifts[chart]);
-        const std::uint32_t charts = chartsAt(bake_.charts->cells, glm::vec2(place[0], place[1]) + moved);
-        return (charts >> 8 & kNoChart) == picture_.chart;
+        if (site >= plane_.agent_count) return false;
+        const Person person = personAt(site);
+        if (person.chart == picture_.chart || person.chart == kNoChart) return false;
+        return (chartsAt(bake_.charts->cells, person.place) >> 8 & kNoChart) == picture_.chart;
     }
 
     void describe() {

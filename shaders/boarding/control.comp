@@ -2,7 +2,8 @@
 // What the doors of each vehicle at a platform do next. They open once it stands; those who get off come out one after
 // another, by all of them; once the last is out and clear of a door, those who wait before it are asked in, the nearest
 // first, as long as there is room. Doors close when nobody comes or goes any more, but not before the stop's least time
-// is over, and so that the vehicle goes on when its longest is. They do not close on anybody.
+// is over, and so that the vehicle goes on when its longest is. They do not close on anybody. In between, leaves move
+// (shaders/boarding/move.comp).
 #include "shaders/shared/simulation_types.h"
 #include "shaders/shared/traffic_types.h"
 #include "shaders/shared/boarding_types.h"
@@ -94,6 +95,12 @@ bool askIn(VehicleService service, DoorWishes wishes, inout uint going_in) {
     return true;
 }
 
+/// When a door may let somebody through again. As long as people wait it lets through as many as it can, however seldom
+/// it is looked after.
+float dueAgain(float due, float flow) {
+    return (now - due < parameters.decision_seconds ? due : now) + 1.0 / flow;
+}
+
 /// Lets people through all doors on the platform's side, each as fast as it lets them.
 /// @returns whether somebody has been let out or asked in, whom nobody has counted yet
 bool letThrough(inout VehicleService service, uint vehicle, uint going_in) {
@@ -107,7 +114,7 @@ bool letThrough(inout VehicleService service, uint vehicle, uint going_in) {
         Doorway doorway = doorwayOf(vehicle_boxes[vehicle], vehicle_doors[door], side);
         bool through = somebody_gets_off ? letOut(service, vehicle, i, door_wishes[door], doorway)
                                          : askIn(service, door_wishes[door], going_in);
-        if (through) door_states[door].next = now + 1.0 / service.door_flow;
+        if (through) door_states[door].next = dueAgain(door_states[door].next, service.door_flow);
         anybody = anybody || through;
     }
     return anybody;
@@ -146,9 +153,7 @@ void standOpen(inout VehicleService service, uint vehicle) {
 }
 
 void stepDoors(inout VehicleService service, uint vehicle) {
-    float share = clamp(service.since / service.door_time, 0.0, 1.0);
-    service.open = service.phase == DOORS_OPEN_UP ? share : 1.0 - share;
-    if (share < 1.0) return;
+    if (service.open != (service.phase == DOORS_OPEN_UP ? 1.0 : 0.0)) return;
     if (service.phase == DOORS_OPEN_UP) {
         enter(service, DOORS_ARE_OPEN);
         return;
@@ -178,8 +183,6 @@ void main() {
     for (uint vehicle = gl_LocalInvocationID.x; vehicle < VEHICLES; vehicle += BOARDING_GROUP_SIZE) {
         VehicleService service = services[vehicle];
         if (service.door_count == 0u) continue;
-        service.since += parameters.decision_seconds;
-        service.stood += parameters.decision_seconds;
         service.aboard += new_aboard[vehicle];
         service.boarded += new_aboard[vehicle];
         if (service.phase == DOORS_SHUT) {

@@ -14,6 +14,7 @@ layout(std430) readonly buffer PreferredVelocities { vec2 preferred_velocities[]
 layout(std430) writeonly buffer StreamBlock { float wishes[]; };
 
 #include "shaders/shared/alive.glsl"
+#include "shaders/charts/slot_images.glsl"
 
 void put(uint row, vec2 wish) {
     bool alive = isAlive(states[row].status);
@@ -26,7 +27,9 @@ void main() {
     // A slot and a row of the same number have nothing to do with each other: each row is put by one or the other.
     uint index = gl_GlobalInvocationID.x;
     if (index >= parameters.row_count) return;
-    if (index < live_count) put(bodies[index].row, preferred_velocities[index]);
+    // Images have slots, too: there may be more of them than rows.
+    for (uint slot = index; slot < live_count; slot += parameters.row_count)
+        if (!holdsImage(slot)) put(bodies[slot].row, preferred_velocities[slot]);
     if (row_cells[index] != NO_INDEX) return;
     float heading = states[index].heading;
     put(index, people[index].preferred_speed * vec2(cos(heading), sin(heading)));

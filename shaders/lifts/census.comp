@@ -79,11 +79,19 @@ uint ridesOn(uint rider, uint stop_index, Stage stage) {
     return riderFor(RIDER_RIDES, stop.lift, here, goal, knows ? spotOf(rider) : NO_SPOT);
 }
 
+/// Whether somebody on a floor has been asked in. Who has been pushed out of the cabin again comes back: its place is
+/// kept, as more would get in than may otherwise.
+bool comesIn(uint rider) {
+    uint phase = rider & RIDER_PHASE;
+    if (phase != RIDER_BOARDS && phase != RIDER_RIDES) return false;
+    LiftState lift = lift_states[liftOf(rider)];
+    return doorsAreOpen(lift) && (phase == RIDER_BOARDS || goalOf(rider) != lift.stop);
+}
+
 /// On a floor: what it has to do with the lifts there.
 uint waitsOn(uint rider, uint chart, vec2 position, Stage stage) {
     vec2 home = position - chart_shifts[chart];
-    bool asked = (rider & RIDER_PHASE) == RIDER_BOARDS;
-    if (asked && doorsAreOpen(lift_states[liftOf(rider)])) return rider;
+    if (comesIn(rider)) return riderFor(RIDER_BOARDS, liftOf(rider), waitsAt(rider), goalOf(rider), NO_SPOT);
     for (uint i = 0u; i < LIFT_STOPS; ++i) {
         LiftStop stop = lift_stops[i];
         if (stop.landing != chart || distance(home, stop.begin) > SEES || throughDoors(stop, home).x > 0.0) continue;

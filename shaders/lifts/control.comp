@@ -2,12 +2,11 @@
 // What each lift does next. It goes on in one direction as long as somebody wants to go further that way, or waits
 // there, and stops for those who get off and for those who wait to go its way; then it turns round. With nobody to
 // serve it stays where it is, doors closed. People come in one after another, the nearest first, once the last who
-// wants to has got off.
+// wants to has got off. In between, doors and cabins move (shaders/lifts/move.comp).
 #include "shaders/shared/simulation_types.h"
 #include "shaders/shared/lift_types.h"
 
 layout(local_size_x = LIFT_GROUP_SIZE) in;
-layout(std140) uniform ParametersBlock { Parameters parameters; };
 
 #include "shaders/charts/lifts.glsl"
 layout(std430) buffer LiftStates { LiftState lift_states[]; };
@@ -40,23 +39,6 @@ int whereTo(LiftState lift, LiftPlan plan, LiftWishes wishes) {
     if (up < 0 || down < 0) return max(up, down);
     if (lift.heading != 0) return lift.heading > 0 ? up : down;
     return heightOf(plan, up) - lift.height <= lift.height - heightOf(plan, down) ? up : down;
-}
-
-/// s that a way takes: it sets out and comes to rest evenly.
-float travelTime(LiftPlan plan, float way) {
-    float needed = plan.speed * plan.speed / LIFT_ACCELERATION;
-    return way < needed ? 2.0 * sqrt(way / LIFT_ACCELERATION)
-                        : way / plan.speed + plan.speed / LIFT_ACCELERATION;
-}
-
-/// m of a way after so many seconds.
-float travelled(LiftPlan plan, float way, float seconds) {
-    float whole = travelTime(plan, way), left = max(whole - seconds, 0.0);
-    float rise = min(min(seconds, left), min(plan.speed / LIFT_ACCELERATION, 0.5 * whole));
-    float at_speed = max(min(seconds, whole - rise) - rise, 0.0);
-    float ramp = 0.5 * LIFT_ACCELERATION * rise * rise;
-    if (seconds <= 0.5 * whole) return ramp + at_speed * plan.speed;
-    return way - ramp - max(left - rise, 0.0) * plan.speed;
 }
 
 void enter(inout LiftState lift, uint phase) {
@@ -139,24 +121,18 @@ void serve(inout LiftState lift, LiftPlan plan, LiftWishes wishes) {
 }
 
 void stepDoors(inout LiftState lift, LiftPlan plan, LiftWishes wishes) {
-    float share = clamp(lift.since / plan.door_time, 0.0, 1.0);
-    lift.open = lift.phase == LIFT_OPENS ? share : 1.0 - share;
     if (lift.phase == LIFT_CLOSES && wishes.in_doors > 0u) {
         openDoors(lift, plan);
         return;
     }
-    if (share < 1.0) return;
+    if (lift.open != (lift.phase == LIFT_OPENS ? 1.0 : 0.0)) return;
     if (lift.phase == LIFT_OPENS && nextStop(lift.stop, lift.heading == 0 ? 1 : lift.heading, wishes) < 0)
         lift.heading = 0;  // nobody wants to go further that way: whoever comes in first may choose
     enter(lift, lift.phase == LIFT_OPENS ? LIFT_IS_OPEN : LIFT_WAITS);
 }
 
 void ride(inout LiftState lift, LiftPlan plan) {
-    float to = lift_stops[plan.first_stop + lift.stop].height, way = abs(to - lift.from);
-    lift.height = lift.from + sign(to - lift.from) * travelled(plan, way, lift.since);
-    if (lift.since < travelTime(plan, way)) return;
-    lift.height = to;
-    openDoors(lift, plan);
+    if (lift.height == heightOf(plan, int(lift.stop))) openDoors(lift, plan);
 }
 
 void main() {
@@ -164,8 +140,6 @@ void main() {
         LiftState lift = lift_states[number];
         LiftPlan plan = lift_plans[number];
         LiftWishes wishes = lift_wishes[number];
-        lift.since += parameters.decision_seconds;
-        lift.idle += parameters.decision_seconds;
         if (lift.phase == LIFT_WAITS)
             setOut(lift, plan, wishes);
         else if (lift.phase == LIFT_IS_OPEN)

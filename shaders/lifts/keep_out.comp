@@ -32,7 +32,8 @@ vec2 keptIn(LiftStop stop, float radius, vec2 from, vec2 to) {
 
 vec2 keptOut(LiftStop stop, LiftPlan plan, float radius, vec2 from, vec2 to) {
     vec2 before = throughDoors(stop, from), at = throughDoors(stop, to);
-    if (before.x > 0.0 || !isBeforeDoors(plan, at, radius)) return to;
+    // Floors end about at the doors, as finely as cells are: further in than a body is thick they are behind the cabin.
+    if (before.x > radius || !isBeforeDoors(plan, at, radius)) return to;
     float most = max(-radius - HAIR, before.x);
     return at.x > most ? to - snapped(stop.along * (at.x - most)) : to;
 }

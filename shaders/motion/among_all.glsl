@@ -29,8 +29,9 @@ float paceStridingAmongAll(Body self, Walker walker, vec2 way, float speed, uint
 }
 #endif
 
-/// m/s: how fast one wants to walk behind those ahead.
+/// m/s: how fast one wants to walk behind those ahead, for who keeps a headway.
 float paceAmongAll(Body self, uint slot, vec2 way, float speed, float headway) {
+#ifdef HEADWAYS
     if (headway <= HEADWAY_LEAST) return speed;
     float pace = speed;
     for (uint i = 0u; i < neighbour_counts[slot]; ++i) {
@@ -41,24 +42,32 @@ float paceAmongAll(Body self, uint slot, vec2 way, float speed, float headway) {
                                     reachBetween(self, other, key), preferred_velocities[key]));
     }
     return pace;
+#else
+    return speed;
+#endif
 }
 
 /// What somebody learns of those it senses.
 struct Surroundings {
     vec2 room;        // m/s^2: made for all of them together
+    float pace;       // m/s: how fast one wants to walk behind those ahead, by `headway`
     bool in_peace;    // all of them go one's way
     bool in_traffic;  // some of them go anywhere
 };
 
-Surroundings lookAround(Body self, uint slot, vec2 wish, Manners manners) {
-    Surroundings around = Surroundings(vec2(0.0), true, false);
+/// @param headway s: how much of one everybody would keep, if all went the same way
+Surroundings lookAround(Body self, uint slot, vec2 wish, float speed, float headway, Manners manners) {
+    Surroundings around = Surroundings(vec2(0.0), speed, true, false);
     for (uint i = 0u; i < neighbour_counts[slot]; ++i) {
         uint key = neighbourKey(slot, i);
         if ((key & NEIGHBOUR_IS_WALL) != 0u) continue;
         Body other = bodies[key];
         vec2 its_wish = preferred_velocities[key];
-        around.room += roomFor(manners, self.position - other.position, self.velocity - other.velocity,
-                               wish - other.velocity, reachBetween(self, other, key), its_wish);
+        vec2 offset = self.position - other.position;
+        float reach = reachBetween(self, other, key);
+        around.room += roomFor(manners, offset, self.velocity - other.velocity, wish - other.velocity, reach, its_wish);
+        if (headway > HEADWAY_LEAST)
+            around.pace = min(around.pace, paceBehind(manners.way, speed, headway, -offset, reach, its_wish));
         around.in_peace = around.in_peace && isPeaceful(likeness(manners.way, its_wish));
         around.in_traffic = around.in_traffic || length(its_wish) > STANDING_SPEED;
     }

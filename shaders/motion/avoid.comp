@@ -149,9 +149,9 @@ void main() {
 #endif
     Manners manners = Manners(way, impatience, crowdingAmong(neighbour_counts[slot]), headway > 0.0 ? 1.0 : 0.0,
                               freedomAt(pace / max(speed, STANDING_SPEED)));
-    Surroundings around = lookAround(self, slot, wish, manners);
-    if (HEADWAY_IN_PEACE_ENABLED && around.in_peace && headway <= 0.0)
-        pace = min(pace, paceAmongAll(self, slot, way, speed, headwayInPeace(impatience)));
+    float in_peace = HEADWAY_IN_PEACE_ENABLED && headway <= 0.0 ? headwayInPeace(impatience) : 0.0;
+    Surroundings around = lookAround(self, slot, wish, speed, in_peace, manners);
+    if (around.in_peace) pace = min(pace, around.pace);
     vec2 acceleration = drive(wish, speed, pace, self.velocity) + around.room * shareOfRoom(speed) +
                         company(self, walker, way, speed);
     vec2 wanted = self.velocity + acceleration * parameters.decision_seconds;
@@ -179,5 +179,10 @@ void main() {
 #endif
     decisions[slot] = Decision(change, pace, feet TWIST);
     if (parameters.decision_seconds > parameters.step_seconds) velocity = legs + change;
-    stride(slot, self.position, velocity, parameters.is_wide != 0u ? states[self.row].rest : vec2(0.0), twist);
+#ifdef WIDE_SITE
+    vec2 rest = states[self.row].rest;
+#else
+    vec2 rest = vec2(0.0);
+#endif
+    stride(slot, self.position, velocity, rest, twist);
 }

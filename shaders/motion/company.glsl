@@ -5,6 +5,7 @@
 // away is no company to walk beside; one waits for it and looks for it instead
 // (shaders/motion/waiting_for_company.glsl).
 // Needs the block States.
+#ifdef PARTIES
 #include "shaders/charts/way_between.glsl"
 
 /// m/s^2: what walking with those from row `first` on makes of somebody's way.
@@ -36,3 +37,6 @@ vec2 company(Body self, Walker walker, vec2 way, float speed) {
     return besideParty(self, walker.party_first, walker.party_size, way) *
            smoothstep(0.0, COMPANY_LETTING_GO, speed / walker.preferred_speed);
 }
+#else
+vec2 company(Body self, Walker walker, vec2 way, float speed) { return vec2(0.0); }
+#endif

@@ -3,6 +3,7 @@
 // it gives way where walls leave no other way. Those pushed off the road come back at a stroll: nothing hard is there.
 // Needs the blocks ParametersBlock and RoadDistances, and shaders/motion/linear_program.glsl.
 
+#ifdef ROADS
 float roadDistance(uvec2 cell) { return road_distances[cell.y * parameters.grid_width + cell.x]; }
 
 bool kerbConstraint(Body self, out vec3 constraint) {
@@ -24,8 +25,11 @@ bool kerbConstraint(Body self, out vec3 constraint) {
 /// Sets the kerb's constraint as number `index`. @returns how many it has set: 1, or 0 where there is none
 int kerbBeside(Body self, Walker walker, int index) {
     vec3 kerb;
-    bool keeps = KERB_ENABLED && parameters.has_roads != 0u && (walker.flags & PERSON_KEEPS_TO_ROADS) != 0u;
+    bool keeps = KERB_ENABLED && (walker.flags & PERSON_KEEPS_TO_ROADS) != 0u;
     if (!keeps || !kerbConstraint(self, kerb)) return 0;
     setConstraint(index, kerb);
     return 1;
 }
+#else
+int kerbBeside(Body self, Walker walker, int index) { return 0; }
+#endif

@@ -63,7 +63,9 @@ void main() {
     vec2 target = targets[slot].xy;
     vec2 moved = target - self.position;
     state.position = target;
-    if (parameters.is_wide != 0u) moved = goFinely(state, self.position, ways[slot], target);
+#ifdef WIDE_SITE
+    moved = goFinely(state, self.position, ways[slot], target);
+#endif
 #ifdef BELTS
     moved -= carriedInStep(walkers[slot].flags);
 #endif
@@ -85,16 +87,16 @@ void main() {
     if (!rides)
 #endif
         state.heading = turned(state, stage, walkers[slot], preferred_velocities[slot], takes_turns, speed);
-    if (parameters.is_wide != 0u)
-        addFinely(state.walked, state.walked_rest, distance_moved);
-    else
-        state.walked += distance_moved;
-    if (state.shortest_way <= 0.0) state.shortest_way = routeAhead(stage, self.position).remaining + stage.beyond;
-    if (changePlans(state, walkers[slot].change_count, self.row)) {
-        stage = stageOf(state.stage, state.ticket, state.position);
-        state.shortest_way = state.walked + routeAhead(stage, state.position).remaining + stage.beyond;
-    } else {
-        followRoute(state, stage, self.row);
-    }
+#ifdef WIDE_SITE
+    addFinely(state.walked, state.walked_rest, distance_moved);
+#else
+    state.walked += distance_moved;
+#endif
+    bool has_new_plans = changePlans(state, walkers[slot].change_count, self.row);
+    if (has_new_plans) stage = stageOf(state.stage, state.ticket, state.position);
+    RouteAhead ahead = freeRouteAhead(stage, state.position);
+    if (has_new_plans || state.shortest_way <= 0.0)
+        state.shortest_way = state.walked + ahead.remaining + stage.beyond;
+    if (!has_new_plans) followRoute(state, stage, ahead, self.row);
     states[self.row] = state;
 }

@@ -14,8 +14,9 @@
 // they wedge each other.
 //
 // Who waits for its turn in a stream that goes one way has nobody to slip past, and its feet give more: planted firmly,
-// they break the stream up into waves of stopping and going. And who is among people who only stand is pushed by
-// nobody: it is itself that presses, and steps back where it has gone astray among them.
+// they break the stream up into waves of stopping and going. So do those who wait in a line, where all others stand and
+// places are steps apart. Who is among people who only stand otherwise is pushed by nobody: it is itself that presses,
+// and steps back where it has gone astray among them.
 // Needs shaders/motion/under_way.glsl.
 
 /// m/s: as slowly as the first nobody walks backwards; from the second on one cannot but go along.
@@ -32,8 +33,9 @@ float takenBack(vec2 velocity, vec2 facing, vec2 feet) {
 /// @param wanted the velocity that it is to have next
 /// @param legs the velocity that legs start from
 void plantFeet(Body self, Walker walker, uint feet, inout vec2 wanted, inout vec2 legs) {
-    if (!PLANTED_FEET_ENABLED || (feet & FEET_IN_TRAFFIC) == 0u || !isUnderWay(walker)) return;
-    bool waits = (feet & FEET_WAIT) != 0u;
+    bool in_line = walker.ticket != NO_INDEX;
+    if (!PLANTED_FEET_ENABLED || (!in_line && ((feet & FEET_IN_TRAFFIC) == 0u || !isUnderWay(walker)))) return;
+    bool waits = in_line || (feet & FEET_WAIT) != 0u;
     vec2 facing = vec2(cos(self.heading), sin(self.heading));
     float back = takenBack(wanted, facing, waits ? WAITING : FIRM);
     wanted += facing * back;

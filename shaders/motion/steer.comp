@@ -30,7 +30,9 @@ uniform uint steps_done;  // counted with this one
 #include "shaders/motion/way_through.glsl"
 #include "shaders/motion/search_beside_walls.glsl"
 #include "shaders/motion/foresight.glsl"
+#ifdef PARTIES
 #include "shaders/motion/waiting_for_company.glsl"
+#endif
 #include "shaders/motion/coming_to_rest.glsl"
 #ifdef BELTS
 #include "shaders/shared/charts.glsl"
@@ -66,8 +68,10 @@ void main() {
     bool narrow = (touch_words[slot] & TOUCH_IN_NARROWS) != 0u;
     walkers[slot].way_through = packSnorm2x16(narrow ? wayThrough(stage, position, ahead) : ahead.direction);
 
+#ifdef PARTIES
     bool in_party = WAITING_FOR_COMPANY_ENABLED && walker.party_size > 1u;
     if (in_party) ahead.direction = wayWithParty(row, walker, stage, position, ahead);
+#endif
     float angle = ownAngle(row) + searchAngle(row, walker, touch_words[slot], steps_done);
     vec2 direction = mat2(cos(angle), sin(angle), -sin(angle), cos(angle)) * ahead.direction;
 
@@ -85,7 +89,9 @@ void main() {
     walkers[slot].flags |= climbingFlags(incline);
     speed *= paceOn(incline);
 #endif
+#ifdef PARTIES
     if (in_party) speed *= paceInParty(row, walker, stage, ahead.remaining);
+#endif
     bool stopped = walker.status == STATUS_ARRIVED || walker.leave_step != 0u;
     speed = speedBeforeRest(speed, stage, ahead, stopped);
     if (hasComeToRest(walker, stage, ahead, stopped, bodies[slot].heading)) {

@@ -12,11 +12,11 @@ void stride(uint slot, vec2 position, vec2 velocity, vec2 rest, float twist) {
     way += carriedInStep(walkers[slot].flags);
 #endif
     vec2 target = position + way;
-    if (parameters.is_wide != 0u) {
-        way += rest;
-        ways[slot] = way;
-        target = placeAfter(position, way);
-    }
+#ifdef WIDE_SITE
+    way += rest;
+    ways[slot] = way;
+    target = placeAfter(position, way);
+#endif
 #ifdef BODIES
     // Chests turn on meanwhile.
     Walker walker = walkers[slot];

@@ -6,11 +6,16 @@
 
 #include "shaders/motion/turn_towards.glsl"
 
-/// What somebody in a line looks at: the place before its own, and in front what the stop is about.
-vec2 nextInLine(AgentState state, Stage stage) {
+/// What somebody who stops looks at: what the stop is about; in a line, the place before its own.
+vec2 toLookAt(AgentState state, Stage stage) {
+#ifdef WAITING_LINES
+    if (stage.line == NO_INDEX) return stage.facing;
     WaitingLine line = waiting_lines[stage.line];
     if (state.ticket == NO_INDEX || state.ticket == line.served) return stage.facing;
     return placeInLine(line, state.ticket - line.served - 1u).point;
+#else
+    return stage.facing;
+#endif
 }
 
 /// The heading after one more step.
@@ -20,6 +25,6 @@ float turned(AgentState state, Stage stage, Walker walker, vec2 wish, bool takes
     if (takes_turns && !stops) look += aheadWhereStuck(wish, state.nervousness);
     if (speed >= (stops ? TURNING_STEPPING_ASIDE : STANDING_SPEED)) return turnTowards(state.heading, look);
     if (TURNING_ON_THE_SPOT && !stops && length(wish) > STANDING_SPEED) return turnTowards(state.heading, wish);
-    vec2 sight = (stage.line != NO_INDEX ? nextInLine(state, stage) : stage.facing) - state.position;
+    vec2 sight = toLookAt(state, stage) - state.position;
     return stops && length(sight) > TURNING_SIGHT ? turnTowards(state.heading, sight) : state.heading;
 }

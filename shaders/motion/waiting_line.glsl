@@ -11,6 +11,7 @@ struct PlaceInLine {
     float reach;
 };
 
+#ifdef WAITING_LINES
 /// The place that is `nth` from the front.
 PlaceInLine placeInLine(WaitingLine line, uint nth) {
     float left = float(nth) * line.spacing;
@@ -30,13 +31,16 @@ vec2 nearestIn(PlaceInLine place, vec2 position) {
     float size = length(offset);
     return size > place.reach ? place.point + offset * (place.reach / size) : position;
 }
+#endif
 
 /// The stage somebody is at. In a line its point is the own place, or the end of the line for those who come.
 Stage stageOf(uint number, uint ticket, vec2 position) {
     Stage stage = stages[number];
+#ifdef WAITING_LINES
     if (stage.line == NO_INDEX) return stage;
     WaitingLine line = waiting_lines[stage.line];
     uint nth = (ticket == NO_INDEX ? line.given : ticket) - line.served;
     stage.point = nearestIn(placeInLine(line, nth), position);
+#endif
     return stage;
 }

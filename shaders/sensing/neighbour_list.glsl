@@ -47,7 +47,8 @@ void keepNearest(float distance_squared, uint key) {
     }
 }
 
-/// Everybody within the contact range, exactly. Those who may touch within this step are listed for the contact pass.
+/// Everybody within the contact range, exactly. Those who may touch before the next decision are listed for the contact
+/// pass.
 /// @returns the touch word
 uint feelContacts(Body self, uint self_slot) {
     ivec2 cell = cellOf(self.position);

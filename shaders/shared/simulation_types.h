@@ -209,7 +209,6 @@ struct Parameters {
     uint row_count;
     uint queue_count;
     uint seed;
-    uint has_roads;        // 0 or 1
     float tile_radius;     // m, of agents
     float largest_radius;  // m, of all people
     float step_seconds;
@@ -220,7 +219,6 @@ struct Parameters {
     float contact_slack;      // m: two people further apart than their radii and this cannot touch before the
                               // next decision
     float maximum_acceleration;  // m/s^2
-    uint is_wide;                // 1 = places are too coarse for steps (base/wide_site.h)
     uint site_rows;              // rows of people, and as many for each image that one may have
     float chart_cell;            // m, of the raster of charts, which begins where the fields' grid does
     uint chart_width;            // cells

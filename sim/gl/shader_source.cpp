@@ -49,12 +49,13 @@ void ShaderLibrary::append(const std::string& path, std::vector<std::string>& fi
 
 std::string ShaderLibrary::load(const std::string& path, const Definitions& definitions,
                                 std::vector<std::string>& files) const {
+    files.clear();
+    std::string body;
+    append(path, files, body);
     std::string out = "#version 450 core\n";
     for (const auto& [name, value] : definitions)
-        out += fmt::format("#define {} {}\n", name, value);
-    files.clear();
-    append(path, files, out);
-    return out;
+        if (body.find(name) != std::string::npos) out += fmt::format("#define {} {}\n", name, value);
+    return out + body;
 }
 
 }  // namespace throng::gl

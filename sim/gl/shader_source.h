@@ -22,6 +22,8 @@ class ShaderLibrary {
     explicit ShaderLibrary(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
     /// The complete GLSL of one shader: version line, definitions, and its includes put in place, each once.
+    /// Definitions that it does not mention are left out, so that scenes that differ in them share its
+    /// program.
     /// @param path e.g. "shaders/sensing/sense.comp"
     /// @param files receives the names behind the #line numbers of compiler messages
     /// @throws GraphicsError for a missing file

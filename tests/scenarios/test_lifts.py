@@ -128,6 +128,8 @@ def test_a_cabin_without_people_stays_where_it_is(throng, tmp_path):
     assert ridden.height[-1] == pytest.approx(STOREY)
     assert ridden.open[-1] == 0 and ridden.stop[-1] == 1
     moving = numpy.flatnonzero(numpy.abs(numpy.diff(ridden.height)) > 1e-4)
+    steps = numpy.diff(ridden.height)[moving[0]:moving[-1] + 1]
+    assert abs(numpy.diff(steps)).max() < 0.005, "it moves evenly: in every frame"  # m, each: 0.8 m/s^2 make 0.0014
     seconds = (moving[-1] - moving[0] + 2) / 24
     assert seconds == pytest.approx(STOREY / 1.0 + 1.0 / 0.8, abs=0.2)  # at 1 m/s, set out and stopped at 0.8 m/s^2
 

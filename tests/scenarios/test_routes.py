@@ -11,7 +11,7 @@ import pytest
 
 HALL = {
     "throng": 1,
-    "simulation": {"duration": 25},
+    "simulation": {"duration": 40},
     "walls": [{"points": [[0, -12], [0, -1]], "thickness": 0.2}, {"points": [[0, 1], [0, 4]], "thickness": 0.2},
               {"points": [[0, 6], [0, 12]], "thickness": 0.2}],
     "formations": [

@@ -121,6 +121,17 @@ def test_nobody_notices_a_seam(throng, once, tmp_path, scene, cut):
     assert after["deepest_overlap_percent"] <= max(2.0, 1.5 * before["deepest_overlap_percent"])
 
 
+def test_wishes_are_everybodys_own_beside_seams(throng, tmp_path):
+    """People beside seams have images, more of them than there are people: wishes are those of people."""
+    wishes = []
+    for name, floors in (("whole", {"whole": WHOLE["three meet"]}), ("parts", MEETING)):
+        (tmp_path / name).mkdir()
+        folder = bake(throng, tmp_path / name, at_random(floors, 3), "--wish")
+        wishes.append(stream(folder, "wish")[:72])
+    assert abs(wishes[0] - wishes[1]).max() < 1e-3
+    assert numpy.linalg.norm(wishes[0][..., :2], axis=2).max() > 1
+
+
 STAIRS = {
     "throng": 1, "simulation": {"duration": 30},
     "levels": [{"id": "ground", "floor": box(-14, -5, 14, 5)},

@@ -94,8 +94,9 @@ def test_people_walk_on_a_bridge_and_under_it(throng, tmp_path):
     hidden = slice(80, 85)
     assert (heights[-1, hidden] == 0).all() and there[-1, hidden].all()
     flat = there & (abs(abs(x) - 10) > 1) & (abs(abs(x) - 30) > 2)
-    # Places are told to a centimetre, as are heights.
-    assert abs(places[..., 2] - numpy.where(on_bridge, bridge_height(x), 0))[flat].max() < 0.0125
+    # Places are told to a centimetre, as are heights; bodies stand where their feet are, and who turns on a slope has one
+    # above the other.
+    assert abs(places[..., 2] - numpy.where(on_bridge, bridge_height(x), 0))[flat].max() < 0.015
     steps = numpy.linalg.norm(numpy.diff(places, axis=0), axis=2)[there[1:] & there[:-1]]
     assert steps.max() < 0.2  # m a frame: nobody jumps
     above = sum((numpy.linalg.norm(up[:, None, :2] - down[None, :, :2], axis=2) < 0.5).any()

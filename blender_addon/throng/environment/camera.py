@@ -31,16 +31,18 @@ def positions_at(bake, frame):
             if values["state"][3 * i] > 0.5]
 
 
-def _densest(people, radius=6.0):
-    """The mean of those in the densest neighbourhood."""
+def _dense_places(people, radius=6.0, share=0.6):
+    """The means of those in the densest neighbourhoods, the densest first: those with at least this share of its
+    people."""
     cells = {}
     for x, y in people:
         cells.setdefault((int(x // radius), int(y // radius)), []).append((x, y))
     def around(cell):
         return [p for dx in (-1, 0, 1) for dy in (-1, 0, 1) for p in cells.get((cell[0] + dx, cell[1] + dy), [])]
-    best = max(cells, key=lambda cell: (len(around(cell)), cell))
-    near = around(best)
-    return sum(p[0] for p in near) / len(near), sum(p[1] for p in near) / len(near)
+    crowds = [near for _, near in sorted(((cell, around(cell)) for cell in cells),
+                                         key=lambda found: (len(found[1]), found[0]), reverse=True)]
+    return [(sum(p[0] for p in near) / len(near), sum(p[1] for p in near) / len(near))
+            for near in crowds if len(near) >= share * len(crowds[0])]
 
 
 def _directions(geometry):
@@ -72,13 +74,13 @@ def build_camera(scene, manifest, collection, shot="crane"):
     bake = _reload(collection)
     frame = int(bake.frames * 0.4) if bake else 0
     people = positions_at(bake, frame) if bake else []
-    target = _densest(people) if people else (0.0, 0.0)
+    targets = _dense_places(people) if people else [(0.0, 0.0)]
     geometry = manifest.get("geometry") or {}
-    ways = _clear_ways(geometry, target)
     if shot == "street":
-        place, aim = _street(geometry, people, target, ways, sun_way(light_of(collection.get("throng_light_time"))))
+        place, aim = _street(geometry, people, targets, sun_way(light_of(collection.get("throng_light_time"))))
     else:
-        place, aim = {"crane": _crane, "wide": _wide}[shot](geometry, people, target, ways[0])
+        way = _clear_ways(geometry, targets[0])[0]
+        place, aim = {"crane": _crane, "wide": _wide}[shot](geometry, people, targets[0], way)
     terrain = read_mesh(bake.terrain_path) if bake and bake.terrain_path else None
     below = _ground_at(terrain, *aim[:2])
     place = (*place[:2], place[2] + max(below, _ground_at(terrain, *place[:2])))
@@ -157,8 +159,9 @@ _SUN = 4.0      # m of room before the lens, for which sun on all who are near m
 _AGAINST = 3.0  # and which light that comes from ahead costs: faces are dark against it
 
 
-def _street(geometry, people, target, ways, sun):
-    """In the crowd, where nobody is right before the lens, and the sun shines on those who are near."""
+def _street(geometry, people, targets, sun):
+    """In the crowd, where nobody is right before the lens, and the sun shines on those who are near; of places that are
+    as good, the one before the densest crowd."""
     houses = houses_of(geometry)
 
     def clear(place):
@@ -169,16 +172,17 @@ def _street(geometry, people, target, ways, sun):
         ahead = [(x - place[0], y - place[1]) for x, y in people]
         return min((math.hypot(*p) for p in ahead if p[0] * -u[0] + p[1] * -u[1] > -0.5), default=10.0)
 
-    def worth(place, u):
+    def worth(target, place, u):
         away = math.dist(place, target)
         looks = (target[0] - place[0]) / away, (target[1] - place[1]) / away
         against = max(looks[0] * sun[0] + looks[1] * sun[1], 0.0)
         return min(room(place, u), 3.4) + _SUN * sunny_share(houses, place, looks, sun) - _AGAINST * against, -away
 
-    places = [((target[0] + u[0] * along - u[1] * side, target[1] + u[1] * along + u[0] * side), u)
-              for u in ways for along in range(8, 18) for side in (-4.0, -3.0, -2.0, -1.0, 1.0, 2.0, 3.0, 4.0)]
-    best, _ = max([each for each in places if clear(each[0])] or places, key=lambda each: worth(*each))
-    return (*best, _EYES), (*target, 1.35)
+    views = [(target, (target[0] + u[0] * along - u[1] * side, target[1] + u[1] * along + u[0] * side), u)
+             for target in targets for u in _clear_ways(geometry, target)
+             for along in range(8, 18) for side in (-4.0, -3.0, -2.0, -1.0, 1.0, 2.0, 3.0, 4.0)]
+    target, place, _ = max([each for each in views if clear(each[1])] or views, key=lambda each: worth(*each))
+    return (*place, _EYES), (*target, 1.35)
 
 
 def _wide(_geometry, people, _target, u):
