@@ -90,7 +90,7 @@ struct SimulationSettings {
     double warmup = 0.0;               ///< s, [0, 3600]: simulated before the first frame and not recorded
     double fps = 24.0;                 ///< frames/s, [1, 240]: the shot's frame rate
     int substeps = 2;                  ///< simulation steps per frame, [1, 64]
-    double decision_interval = 0.05;  ///< s, [0, 0.25]: the longest from one decision of people to the next
+    double decision_interval = 0.084;  ///< s, [0, 0.25]: the longest from one decision of people to the next
     std::uint64_t seed = 1;            ///< [0, 2^53]: same layout, seed and driver give the same bytes
     double tile_radius =
         0.6;  ///< m, [0.05, 10]: a site's tile in the diagram; at least the largest body radius

@@ -16,9 +16,9 @@
 namespace throng::sim {
 namespace {
 
-// How far contact may move somebody between two decisions and still be sure to meet everybody it is moved
-// into, m.
-constexpr float kPushAllowance = 0.05f;
+// How fast contact may move somebody between two decisions, for it still to be sure to meet everybody it is moved
+// into, m/s.
+constexpr float kPushAllowance = 1.2f;
 
 constexpr const char* kSitter = "person with a seat";
 
@@ -163,7 +163,7 @@ gpu::Parameters makeParameters(const authoring::Scene& scene) {
     parameters.decision_seconds = parameters.step_seconds * static_cast<float>(settings.stepsPerDecision());
     parameters.largest_radius = scene.largest_radius;
     // Both may walk, and both may be pushed.
-    parameters.contact_slack = 2.0f * fastest(scene) * parameters.decision_seconds + 2.0f * kPushAllowance;
+    parameters.contact_slack = 2.0f * (fastest(scene) + kPushAllowance) * parameters.decision_seconds;
     parameters.contact_range = std::max(static_cast<float>(settings.contact_range),
                                         2.0f * scene.largest_radius + parameters.contact_slack);
     parameters.cells_minimum = scene.minimum;

@@ -247,9 +247,7 @@ void Terrain::sampleLattice() {
         }
     if (std::all_of(heights.begin(), heights.end(), [](float value) { return std::isnan(value); }))
         heights = partial;
-    const float ledge =
-        plane_ ? std::max(kLedge, 1.2f * lattice_.cell) : std::numeric_limits<float>::infinity();
-    Lattice smooth(lattice_, std::move(heights), ledge), faces(lattice_, std::move(slopes));
+    Lattice smooth(lattice_, std::move(heights), ledge()), faces(lattice_, std::move(slopes));
     for (Lattice* each : {&smooth, &faces}) {
         each->fill();
         each->smooth();
@@ -296,11 +294,21 @@ void Terrain::leaveOutOthers(glm::vec2 point, std::array<float, 4>& heights) con
         if (!is_near(height)) height = count > 0.0f ? sum / count : here->height;
 }
 
+float Terrain::ledge() const {
+    return plane_ ? std::max(kLedge, 1.2f * lattice_.cell) : std::numeric_limits<float>::infinity();
+}
+
+/// A ledge is no slope: beside one, the slope is that of one's own side.
 glm::vec2 Terrain::slopeAt(glm::vec2 point) const {
-    const float d = lattice_.cell;
-    return glm::vec2(smoothAt(point + glm::vec2(d, 0.0f)) - smoothAt(point - glm::vec2(d, 0.0f)),
-                     smoothAt(point + glm::vec2(0.0f, d)) - smoothAt(point - glm::vec2(0.0f, d))) /
-           (2.0f * d);
+    const float cell = lattice_.cell, here = smoothAt(point);
+    const auto along = [&](glm::vec2 way) {
+        const float before = smoothAt(point - way), after = smoothAt(point + way);
+        const bool came = std::abs(here - before) <= ledge(), goes_on = std::abs(after - here) <= ledge();
+        if (came && goes_on) return (after - before) / (2.0f * cell);
+        if (came) return (here - before) / cell;
+        return goes_on ? (after - here) / cell : 0.0f;
+    };
+    return {along({cell, 0.0f}), along({0.0f, cell})};
 }
 
 float Terrain::stepsAt(glm::vec2 point) const {

@@ -69,6 +69,8 @@ class Terrain {
     std::optional<Face> hitInPlane(glm::vec2 point) const;
     void leaveOutOthers(glm::vec2 point, std::array<float, 4>& heights) const;
     void sampleLattice();
+    /// m in a cell of the lattice: what is higher is another ground. Nothing is where the ground is not cut.
+    float ledge() const;
     glm::vec2 nodePlace(std::uint32_t x, std::uint32_t y) const {
         return minimum_ + glm::vec2(x, y) * lattice_.cell;
     }

@@ -152,7 +152,8 @@ void main() {
     float in_peace = HEADWAY_IN_PEACE_ENABLED && headway <= 0.0 ? headwayInPeace(impatience) : 0.0;
     Surroundings around = lookAround(self, slot, wish, speed, in_peace, manners);
     if (around.in_peace) pace = min(pace, around.pace);
-    vec2 acceleration = drive(wish, speed, pace, self.velocity) + around.room * shareOfRoom(speed) +
+    vec2 acceleration = drive(wish, speed, pace, self.velocity) +
+                        notLedAway(walker, way, speed, around.room * shareOfRoom(speed)) +
                         company(self, walker, way, speed);
     vec2 wanted = self.velocity + acceleration * parameters.decision_seconds;
     vec2 legs = self.velocity;  // what they start from

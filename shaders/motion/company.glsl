@@ -37,6 +37,14 @@ vec2 company(Body self, Walker walker, vec2 way, float speed) {
     return besideParty(self, walker.party_first, walker.party_size, way) *
            smoothstep(0.0, COMPANY_LETTING_GO, speed / walker.preferred_speed);
 }
+
+/// m/s^2: of the room that others want, what somebody makes who waits for its company. It makes way to a side, but is
+/// not driven on.
+vec2 notLedAway(Walker walker, vec2 way, float speed, vec2 room) {
+    if (!COMPANY_ENABLED || walker.party_size <= 1u || speed >= COMPANY_LETTING_GO * walker.preferred_speed) return room;
+    return room - way * max(dot(room, way), 0.0);
+}
 #else
 vec2 company(Body self, Walker walker, vec2 way, float speed) { return vec2(0.0); }
+vec2 notLedAway(Walker walker, vec2 way, float speed, vec2 room) { return room; }
 #endif

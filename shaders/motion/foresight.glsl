@@ -3,9 +3,8 @@
 // before they are there. Who went by where it is would swing out after every corner, and walk past its goal and back.
 // Needs shaders/routes/route.glsl.
 
-/// s: by how much the mean effect of a decision comes later than where decisions stand for 1/24 s, which the rule's
-/// numbers were found with.
-float laterThanUsual() { return max(parameters.decision_seconds - 1.0 / 24.0 - 1.0e-6, 0.0) * 2.0 / 3.0; }
+/// s: by how much longer decisions stand than those that the rule's numbers were found with.
+float laterThanUsual() { return max(parameters.decision_seconds - FORESIGHT_USUAL, 0.0); }
 
 /// The way from where one will be, or from where one is, if there might be a wall in between: beyond that, the way is
 /// longer or shorter by more than what was walked. Jams are heeded as they are.

@@ -88,29 +88,39 @@ class Follower::Eye {
         slots_ = parts_.decides ? 0 : slots_;
         left_ = 0;
         for (const std::uint32_t row : rows_) {
-            const gpu::AgentState state = parts_.buffers.states.download<gpu::AgentState>(1, row).front();
+            const gpu::AgentState state = stateOf(row);
             Watched& watched = watched_[row];
             left_ += state.status == gpu::STATUS_GONE ? 1 : 0;
             if (!isThere(state)) continue;
-            FollowedStep& now = watched.now;
-            const gpu::Person& person = scene_.people[row];
-            now.row = row;
-            now.step = parts_.steps_done;
-            now.time = double{parts_.now()};
-            now.decides = parts_.decides;
-            now.doing = doingOf(state);
-            now.stage = state.stage - firstStage(person, state);
-            now.goal = scene_.stages[state.stage].point;
-            now.radius = person.radius;
-            now.preferred_speed = person.preferred_speed;
-            now.place_before = now.place = state.position;
-            now.facing_before = now.facing = {std::cos(state.heading), std::sin(state.heading)};
-            now.velocity_before = now.velocity = state.velocity;
-            now.nervousness = state.nervousness;
-            now.influences.clear();
-            watched.velocity = state.velocity;
+            lookAt(row, state);
             if (!parts_.decides && watched.slot) present_[row] = &watched;
         }
+    }
+
+    gpu::AgentState stateOf(std::uint32_t row) const {
+        return parts_.buffers.states.download<gpu::AgentState>(1, row).front();
+    }
+
+    /// What somebody is as the step begins, or where it has come in by it.
+    void lookAt(std::uint32_t row, const gpu::AgentState& state) {
+        Watched& watched = watched_[row];
+        FollowedStep& now = watched.now;
+        const gpu::Person& person = scene_.people[row];
+        now.row = row;
+        now.step = parts_.steps_done;
+        now.time = double{parts_.now()};
+        now.decides = parts_.decides;
+        now.doing = doingOf(state);
+        now.stage = state.stage - firstStage(person, state);
+        now.goal = scene_.stages[state.stage].point;
+        now.radius = person.radius;
+        now.preferred_speed = person.preferred_speed;
+        now.place_before = now.place = state.position;
+        now.facing_before = now.facing = {std::cos(state.heading), std::sin(state.heading)};
+        now.velocity_before = now.velocity = state.velocity;
+        now.nervousness = state.nervousness;
+        now.influences.clear();
+        watched.velocity = state.velocity;
     }
 
     void before(const std::string& pass) {
@@ -146,6 +156,8 @@ class Follower::Eye {
         for (std::uint32_t slot = 0; slot < live; ++slot) {
             const auto found = watched_.find(bodies_[slot].row);
             if (found == watched_.end() || (walkers[slot].flags & gpu::WALKER_IS_IMAGE) != 0) continue;
+            if (found->second.now.step != parts_.steps_done)  // it has come in by this step
+                lookAt(found->first, stateOf(found->first));
             found->second.slot = slot;
             slots_ = slot + 1;
             present_[found->first] = &found->second;
@@ -241,7 +253,7 @@ class Follower::Eye {
         const std::vector<Climb> turned = ladders_.turned(slots_, parts_.steps_done, rows);
         std::size_t nth = 0;
         for (auto& [row, watched] : present_) {
-            const gpu::AgentState state = parts_.buffers.states.download<gpu::AgentState>(1, row).front();
+            const gpu::AgentState state = stateOf(row);
             FollowedStep& now = watched->now;
             now.place = state.position;
             now.velocity = state.velocity;

@@ -23,7 +23,7 @@ TEST(StepsPerDecision, AreThoseOfAsManyWholeFramesAsFitTheInterval) {
     const auto steps = [](double fps, int substeps, double interval = 0.084) {
         return stepsPerDecision(fps, substeps, interval);
     };
-    EXPECT_EQ(authoring::SimulationSettings().stepsPerDecision(), 2) << "24 frames/s of two steps";
+    EXPECT_EQ(authoring::SimulationSettings().stepsPerDecision(), 4) << "two frames of 24 a second";
     EXPECT_EQ(steps(24, 2), 4);
     EXPECT_EQ(steps(24, 1), 2);
     EXPECT_EQ(steps(25, 2), 4);
