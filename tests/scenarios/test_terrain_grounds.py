@@ -105,6 +105,17 @@ def test_people_walk_on_a_bridge_and_under_it(throng, tmp_path):
     assert above > 20
 
 
+def test_who_walks_down_a_ramp_keeps_its_line(throng, tmp_path):
+    """The edge of a ramp is no stairs: nobody walks along it because it is cheap."""
+    given = layout(flows=[{"id": "down", "from": "top", "to": "east", "count": 1, "end": 1}])
+    given["areas"] = [{"id": "top", "level": "deck", "polygon": box(-1, -0.1, 1, 0.1)},
+                      {"id": "east", "polygon": box(37, -0.1, 38, 0.1)}]
+    folder = bake(throng, tmp_path, bridge(), given)
+    assert measured(throng, folder)["arrived"] == 1
+    y = stream(folder, "pos")[stream(folder, "state")[..., 0] > 0][:, 1]
+    assert len(y) > 24 * 20 and abs(y).max() < 0.3
+
+
 def test_without_names_everything_is_on_the_lowest_ground(throng, tmp_path):
     flows = [{"id": "in", "from": "north", "to": "top", "count": 3, "end": 1, "arrival": "stay"}]
     given = layout(levels=[], flows=flows)

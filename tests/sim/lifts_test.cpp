@@ -62,7 +62,7 @@ TEST_P(LiftsTest, CountsAsPlainCppDoesAndGivesEverybodyASpotOfItsOwn) {
     sim::Simulation simulation(scene, library);
     const sim::Buffers& buffers = simulation.parts().buffers;
     std::uint32_t most_aboard = 0, most_waiting = 0;
-    for (int step = 0; step < 1680; ++step) {
+    for (int step = 0; step < 2160; ++step) {
         const bool look = step % 40 == 0;
         const auto before =
             look ? buffers.riders.download<std::uint32_t>(GetParam()) : std::vector<std::uint32_t>();

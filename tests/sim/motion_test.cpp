@@ -208,6 +208,25 @@ TEST_F(MotionTest, WhoWasGivenNoHeadwayClosesUpWhereSomebodyComesAnotherWay) {
     EXPECT_NEAR(pace(0.2f, across), 0.4f, 0.05f) << "which it keeps in any case";
 }
 
+TEST_F(MotionTest, NobodyWhoWaitsForItsCompanyIsLedAwayByWhoComesUpBehind) {
+    authoring::Scene scene = emptyScene({-20, -10}, {60, 10});
+    for (const float x : {0.0f, -7.0f}) {
+        gpu::Person& person = addPerson(scene, {x, 0}, {50, 0}, 1.3f);
+        person.party_first = 0;
+        person.party_size = 2;
+    }
+    for (int i = 0; i < 6; ++i)  // two rows of three
+        addPerson(scene, {-2.0f - 0.7f * static_cast<float>(i / 3), 0.5f * static_cast<float>(i % 3 - 1)}, {50, 0}, 1.6f);
+    sim::Simulation simulation(scene, library);
+    float fastest = 0.0f;
+    for (int step = 0; step < 4 * 48; ++step) {
+        simulation.step();
+        const auto states = simulation.parts().buffers.states.download<gpu::AgentState>(2);
+        if (step > 24) fastest = std::max(fastest, glm::length(states[0].velocity));
+    }
+    EXPECT_LT(fastest, 0.6f) << "m/s";
+}
+
 TEST_F(MotionTest, WhoIsCarriedOffGivesLessInContact) {
     const auto pushes = [&](glm::vec2 goal) {
         authoring::Scene scene = emptyScene({-10, -10}, {10, 10});
@@ -320,6 +339,23 @@ TEST_F(MotionTest, WhoStandsInAPlaceStepsBackToIt) {
     states = simulation.parts().buffers.states.download<gpu::AgentState>(1);
     EXPECT_LT(std::abs(states[0].position.x), 0.15f);
     EXPECT_LT(std::abs(states[0].heading), 0.1f) << "and looks at what there is to see";
+}
+
+TEST_F(MotionTest, WhoStandsAmongOthersAtPlacesOfTheirOwnStandsStill) {
+    authoring::Scene scene = emptyScene({-10, -10}, {10, 10});
+    for (int i = 0; i < 9; ++i) {
+        const glm::vec2 place = 0.52f * glm::vec2(i % 3, i / 3);  // 2 cm between bodies
+        addPerson(scene, place, place);
+        scene.stages.back().dwell = 60.0f;
+    }
+    sim::Simulation simulation(scene, library);
+    float moved = 0.0f;
+    for (int step = 0; step < 480; ++step) {
+        simulation.step();
+        for (const auto& state : simulation.parts().buffers.states.download<gpu::AgentState>(9))
+            moved += glm::length(state.velocity) / 48.0f / 9.0f;
+    }
+    EXPECT_LT(moved, 0.05f) << "m each, in 10 s";
 }
 
 TEST_F(MotionTest, WhoDoesNotGetOnTurnsOnTheSpot) {
