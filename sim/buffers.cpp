@@ -16,8 +16,8 @@
 namespace throng::sim {
 namespace {
 
-// How fast contact may move somebody between two decisions, for it still to be sure to meet everybody it is moved
-// into, m/s.
+// How fast contact may move somebody between two decisions, for it still to be sure to meet everybody it is
+// moved into, m/s.
 constexpr float kPushAllowance = 1.2f;
 
 constexpr const char* kSitter = "person with a seat";

@@ -210,13 +210,14 @@ TEST_F(MotionTest, WhoWasGivenNoHeadwayClosesUpWhereSomebodyComesAnotherWay) {
 
 TEST_F(MotionTest, NobodyWhoWaitsForItsCompanyIsLedAwayByWhoComesUpBehind) {
     authoring::Scene scene = emptyScene({-20, -10}, {60, 10});
-    for (const float x : {0.0f, -7.0f}) {
+    for (const float x : {0.0f, -14.0f}) {
         gpu::Person& person = addPerson(scene, {x, 0}, {50, 0}, 1.3f);
         person.party_first = 0;
         person.party_size = 2;
     }
     for (int i = 0; i < 6; ++i)  // two rows of three
-        addPerson(scene, {-2.0f - 0.7f * static_cast<float>(i / 3), 0.5f * static_cast<float>(i % 3 - 1)}, {50, 0}, 1.6f);
+        addPerson(scene, {-2.0f - 0.7f * static_cast<float>(i / 3), 0.5f * static_cast<float>(i % 3 - 1)},
+                  {50, 0}, 1.6f);
     sim::Simulation simulation(scene, library);
     float fastest = 0.0f;
     for (int step = 0; step < 4 * 48; ++step) {
