@@ -153,8 +153,8 @@ TEST_F(StepTableTest, CountsBytesPerPersonAndLaunches) {
     };
     const sim::StepRow gather = pass("cells").rows.back();
     EXPECT_EQ(gather.what, "shaders/cells/bodies_gather.comp");
-    EXPECT_NEAR(gather.launches, 1.0, 1e-9)
-        << "at every second step people decide, and are sorted again once some have come in";
+    EXPECT_NEAR(gather.launches, 0.5, 1e-9)
+        << "at every fourth step people decide, and are sorted again once some have come in";
     const std::size_t word = sizeof(std::uint32_t);
     EXPECT_EQ(gather.bytesReadPerPerson(), sizeof(gpu::Person) + sizeof(gpu::AgentState) + 2 * word);
     EXPECT_EQ(gather.bytesWrittenPerPerson(),
