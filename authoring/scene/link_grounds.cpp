@@ -13,6 +13,7 @@
 #include "authoring/storeys/before_ends.h"
 #include "authoring/storeys/chart_raster.h"
 #include "authoring/storeys/cut.h"
+#include "authoring/storeys/links_apart.h"
 #include "base/polygon.h"
 
 namespace throng::authoring {
@@ -304,6 +305,7 @@ void joinLinks(const Layout& layout, std::size_t first_link, std::vector<Chart>&
             checkRoomInCabin(layout, layout.links[charts[i].index], diagnostics);
         tellOfWallsBefore(layout, charts[i], diagnostics);
     }
+    checkLinksApart(charts, layout, diagnostics);
 }
 
 void tellOfWalls(const BuiltLinks& built, const Layout& layout, Diagnostics& diagnostics) {

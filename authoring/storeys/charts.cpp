@@ -11,6 +11,7 @@
 #include "authoring/storeys/before_ends.h"
 #include "authoring/storeys/chart_mesh.h"
 #include "authoring/storeys/given_ways.h"
+#include "authoring/storeys/links_apart.h"
 #include "authoring/storeys/plane.h"
 #include "authoring/storeys/railings.h"
 #include "base/polygon.h"
@@ -39,6 +40,7 @@ class LayingOut {
                             result_->charts.size(), kMostCharts - 1));
         result_->reach = reachOf(layout_);
         checkStoreys();
+        checkLinksApart(result_->charts, layout_, diagnostics_);
         if (diagnostics_.hasErrors()) return nullptr;
         layInPlane(*result_);
         checkLinks();

@@ -16,7 +16,8 @@ RouteAhead wayAhead(Stage stage, vec2 position, vec2 velocity, uint sensed, floa
         RouteAhead soon = freeRouteAhead(stage, position + lead);
         if (abs(soon.remaining - ahead.remaining) <= length(lead) * FORESIGHT_SAME_WAY) {
             ahead = soon;
-            ahead.remaining += laterThanUsual() * free * (1.0 - nervousness) * length(velocity);  // none slows down sooner
+            // Nobody slows down sooner.
+            ahead.remaining += laterThanUsual() * free * (1.0 - nervousness) * length(velocity);
         }
     }
     return heedingJams(stage, position, ahead);

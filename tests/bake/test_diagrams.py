@@ -126,10 +126,10 @@ def test_launches_are_those_of_the_table_of_passes(throng, way):
     launches = {row["what"]: row for row in told["launches"]}
     assert told["people"] == 63 and 0 < told["asking_ms"] <= told["step_ms"]
     assert all(row["step_ms"] > 0 for row in launches.values())
-    # Eight rounds of contact a step; people decide in every second one.
+    # Eight rounds of contact a step; people decide in every fourth one.
     assert launches["shaders/motion/contact.comp"]["launches"] == 8
     assert launches["shaders/motion/move.comp"]["launches"] == 1
-    assert launches["shaders/motion/avoid.comp"]["launches"] == 0.5
+    assert launches["shaders/motion/avoid.comp"]["launches"] == 0.25
     assert ("shaders/sensing/sense.comp" in launches) == (way == "voronoi")
     assert launches["shaders/motion/move.comp"]["bytes_per_person"] > 300
 
