@@ -97,10 +97,11 @@ void tellOf(const Meeting& meeting, const Link& first, const Link& second, Diagn
     const std::string how = meeting.apart > 0.0
                                 ? fmt::format("are only {:.2f} m over each other", meeting.apart)
                                 : std::string("go through each other");
-    diagnostics.error(second.where,
-                      fmt::format("links `{}` and `{}` {} at [{:.2f}, {:.2f}]", first.id, second.id, how,
-                                  meeting.at.x, meeting.at.y),
-                      fmt::format("move one of them: people need {} m over their heads", kHeadroom));
+    const glm::dvec2 at = glm::round(100.0 * meeting.at) / 100.0 + 0.0;  // no -0.00
+    diagnostics.error(
+        second.where,
+        fmt::format("links `{}` and `{}` {} at [{:.2f}, {:.2f}]", first.id, second.id, how, at.x, at.y),
+        fmt::format("move one of them: people need {} m over their heads", kHeadroom));
 }
 
 }  // namespace

@@ -432,18 +432,18 @@ TEST(Storeys, LinksDoNotGoThroughEachOther) {
     using Texts = std::vector<std::string>;
     const std::string up = R"("from": "ground", "to": "upper", "path": [[-4, 0], [0, 0]])";
     EXPECT_EQ(complaints(up, R"("from": "ground", "to": "upper", "path": [[-4, 1], [0, 1]])"),
-              Texts{"6: links `a` and `b` go through each other at [-2.00, 0.50]"});
+              Texts{"7: links `a` and `b` go through each other at [-2.00, 0.50]"});
     EXPECT_EQ(complaints(up, R"("from": "ground", "to": "upper", "path": [[-2, -3], [-2, 2]])"),
-              Texts{"6: links `a` and `b` go through each other at [-2.00, 0.00]"})
+              Texts{"7: links `a` and `b` go through each other at [-2.00, 0.00]"})
         << "though they are 0.3 m over each other in the middle";
     EXPECT_EQ(complaints(up, R"("type": "lift", "levels": ["ground", "upper"], "at": [-2, 0])"),
-              Texts{"6: links `a` and `b` go through each other at [-2.00, 0.00]"});
+              Texts{"7: links `a` and `b` go through each other at [-2.00, 0.00]"});
     EXPECT_EQ(complaints(up, R"("from": "upper", "to": "top", "path": [[-5, 0], [-1, 0]])"), Texts{})
         << "3.75 m over each other";
     EXPECT_EQ(complaints(up, R"("from": "ground", "to": "upper", "path": [[-4, 2.1], [0, 2.1]])"), Texts{})
         << "railings touch";
     EXPECT_EQ(complaints(up, R"("from": "upper", "to": "top", "path": [[-1.22, 0], [-5.22, 0]])"),
-              Texts{"6: links `a` and `b` are only 0.99 m over each other at [-2.61, 0.00]"});
+              Texts{"7: links `a` and `b` are only 0.99 m over each other at [-2.61, 0.00]"});
 }
 
 }  // namespace
