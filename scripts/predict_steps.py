@@ -131,9 +131,14 @@ def table_of_passes(launches, costs, gpus, people):
     return "\n".join(lines)
 
 
-def table_of_trust(launches, costs, whole):
+def as_measured(launches, text):
+    """The launches of the program that was measured, as often in a step as it made them."""
+    often = {what: each for what, (each, _) in measured_launches(text, PEOPLE[0]).items()}
+    return [(name, what, often[what], size) for name, what, _, size in launches if what in often]
+
+
+def table_of_trust(then, costs, whole):
     """Of the launches that were measured, the sizes that were not fitted."""
-    then = [each for each in launches if each[1] in costs]
     lines = ["| people | predicted, ms | measured, ms | off by |", "| ---: | ---: | ---: | ---: |"]
     for people, time in whole.items():
         step = sum(each[2] for each in predicted(then, costs, people, BANDWIDTH)) / 1000.0
@@ -150,7 +155,7 @@ def tables(program, gpus=None, counts=PEOPLE):
         f"\nPass by pass, {counts[-1]:,} people:\n",
         table_of_passes(launches, costs, gpus, counts[-1]),
         "\nThe GPU that was measured, with the launches that it was measured with:\n",
-        table_of_trust(launches, costs, whole_steps(text))])
+        table_of_trust(as_measured(launches, text), costs, whole_steps(text))])
 
 
 def main():

@@ -23,9 +23,7 @@ def step(launches, costs, people, bandwidth):
 
 def test_sizes_that_were_not_fitted_are_met_within_a_quarter(known):
     text, costs, launches = known
-    # As often as the program that was measured launched them.
-    often = {what: each for what, (each, _) in predict.measured_launches(text, 16384).items()}
-    then = [(name, what, often[what], size) for name, what, _, size in launches if what in costs]
+    then = predict.as_measured(launches, text)
     whole = predict.whole_steps(text)
     assert sorted(whole) == [256, 4096, 16384, 65536, 262144, 1048576]
     for people, measured in whole.items():
