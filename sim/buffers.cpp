@@ -16,9 +16,9 @@
 namespace throng::sim {
 namespace {
 
-// How fast contact may move somebody between two decisions, for it still to be sure to meet everybody it is
-// moved into, m/s.
-constexpr float kPushAllowance = 1.2f;
+// How fast contact may move somebody between two decisions (m/s), and how far at the least (m), for it still to
+// be sure to meet everybody it is moved into.
+constexpr float kPushedAt = 2.4f, kLeastPush = 0.05f;
 
 constexpr const char* kSitter = "person with a seat";
 
@@ -163,7 +163,8 @@ gpu::Parameters makeParameters(const authoring::Scene& scene) {
     parameters.decision_seconds = parameters.step_seconds * static_cast<float>(settings.stepsPerDecision());
     parameters.largest_radius = scene.largest_radius;
     // Both may walk, and both may be pushed.
-    parameters.contact_slack = 2.0f * (fastest(scene) + kPushAllowance) * parameters.decision_seconds;
+    const float pushed = std::max(kPushedAt * parameters.decision_seconds, kLeastPush);
+    parameters.contact_slack = 2.0f * (fastest(scene) * parameters.decision_seconds + pushed);
     parameters.contact_range = std::max(static_cast<float>(settings.contact_range),
                                         2.0f * scene.largest_radius + parameters.contact_slack);
     parameters.cells_minimum = scene.minimum;

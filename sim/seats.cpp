@@ -49,7 +49,8 @@ std::vector<std::pair<std::string, gl::Buffer*>> Seats::remembered() {
     return {{"sitters", &buffers_.sitters},
             {"bodies", &buffers_.bodies},
             {"strip starts", &buffers_.strip_starts},
-            {"cell offsets", &buffers_.cell_offsets}};
+            {"cell offsets", &buffers_.cell_offsets},
+            {"row cells", &buffers_.row_cells}};
 }
 
 }  // namespace throng::sim

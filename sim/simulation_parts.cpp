@@ -218,13 +218,15 @@ std::vector<Pass> Simulation::Parts::passesOfStep() {
                              {"contacts", touch},
                              {"motion", move}};
     // Who has come in walks on at once, and others see them: until the next decision nobody gets a slot.
-    if (anybody_enters_later || boarding)
-        all.insert(all.begin() + 3, {"cells", when_deciding([this] { cells.run(); })});
+    const bool sorts_again = anybody_enters_later || boarding;
+    if (sorts_again) all.insert(all.begin() + 3, {"cells", when_deciding(sort)});
+    // What they make of somebody's pace would not outlive another sorting, and who has come in has a goal at
+    // once.
     if (behaviour)
-        all.insert(all.begin() + 1, {"behaviour", when_deciding([this] {
-                                         if (seats) seats->think(step_start, steps_done);
-                                         behaviour->run(step_start, steps_done);
-                                     })});
+        all.insert(all.begin() + (sorts_again ? 4 : 1), {"behaviour", when_deciding([this] {
+                                                             if (seats) seats->think(step_start, steps_done);
+                                                             behaviour->run(step_start, steps_done);
+                                                         })});
     if (lifts) all.insert(all.begin() + 1, {"lifts", ride});
     if (boarding) all.insert(all.begin() + 1, {"boarding", board});
     if (sizes) all.insert(all.begin() + 1, {"sizes", when_deciding([this] { sizes->run(step_start); })});

@@ -32,19 +32,42 @@ Polygon leftPart(const Polygon& polygon, glm::dvec2 from, glm::dvec2 to) {
     return part;
 }
 
-/// Where people walk on a flight, or what a cabin is moved through.
+double areaOf(const Polygon& polygon) {
+    double twice = 0.0;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const glm::dvec2 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+        twice += a.x * b.y - a.y * b.x;
+    }
+    return 0.5 * twice;
+}
+
+/// On a terrain, charts that are no links are its grounds.
+bool isLanding(const Chart& chart, const Layout& layout) {
+    return !chart.surface && layout.levels[chart.index].is_landing;
+}
+
+/// The flight of which a landing is a part: the one that leads to it.
+const Link& flightTo(const Chart& landing, const Layout& layout) {
+    return *std::ranges::find_if(
+        layout.links, [&](const Link& link) { return !link.isLift() && link.to == landing.index; });
+}
+
+/// Where people walk on a flight or a landing, or what a cabin is moved through.
 class Space {
   public:
-    Space(const Chart& chart, const Layout& layout) : chart_(chart), link_(layout.links[chart.index]) {
+    Space(const Chart& chart, const Layout& layout)
+        : chart_(chart), link_(chart.is_link ? layout.links[chart.index] : flightTo(chart, layout)) {
+        if (!chart.is_link) heights_ = {layout.levels[chart.index].height, layout.levels[chart.index].height};
         for (std::size_t stop = 0; chart.is_cabin && stop < link_.lift.levels.size(); ++stop) {
             const double height = heightOfStop(layout, link_.lift, stop);
-            const auto [low, high] = shaft_.value_or(std::pair(height, height));
-            shaft_ = {std::min(low, height), std::max(high, height)};
+            const auto [low, high] = heights_.value_or(std::pair(height, height));
+            heights_ = {std::min(low, height), std::max(high, height)};
         }
     }
 
     /// Counter-clockwise.
     Polygon outline() const {
+        if (isLanding()) return chart_.floor;
         constexpr double kTouch = 0.05;  // m, by which railings may be in each other
         Footprint walked = chart_.link;
         walked.half_width -= kTouch;
@@ -52,20 +75,26 @@ class Space {
     }
     /// m: lowest and highest at a place.
     std::pair<double, double> heightsAt(glm::dvec2 at) const {
-        if (shaft_) return *shaft_;
+        if (heights_) return *heights_;
         const double height = chart_.link.heightAt(chart_.link.alongOf(at));
         return {height, height};
     }
-    /// Flights of one link have one place in the file, and are looked at where the link is read.
-    bool isOfSameLink(const Space& other) const {
-        return link_.where.line == other.link_.where.line && link_.where.column == other.link_.where.column;
+    bool isLanding() const { return !chart_.is_link; }
+    /// One leads on to the other, which is looked at where links are read, or both are floors.
+    bool needsNoLook(const Space& other) const {
+        const bool same_link =
+            link_.where.line == other.link_.where.line && link_.where.column == other.link_.where.column;
+        const std::size_t apart = chart_.index > other.chart_.index ? chart_.index - other.chart_.index
+                                                                    : other.chart_.index - chart_.index;
+        if (isLanding() || other.isLanding()) return same_link || isLanding() == other.isLanding();
+        return same_link && apart <= 1;
     }
     const Link& link() const { return link_; }
 
   private:
     const Chart& chart_;
     const Link& link_;
-    std::optional<std::pair<double, double>> shaft_;
+    std::optional<std::pair<double, double>> heights_;  // m, where they are the same all over it
 };
 
 struct Meeting {
@@ -79,7 +108,8 @@ std::optional<Meeting> meetingOf(const Space& a, const Space& b) {
     const Polygon other = b.outline();
     for (std::size_t i = 0; i < other.size() && common.size() > 2; ++i)
         common = leftPart(common, other[i], other[(i + 1) % other.size()]);
-    if (common.size() < 3) return std::nullopt;
+    constexpr double kLeast = 1.0e-6;  // m^2, and m: less is rounding
+    if (common.size() < 3 || areaOf(common) < kLeast) return std::nullopt;
     double a_over_b = std::numeric_limits<double>::infinity(), b_over_a = a_over_b;
     Meeting meeting;
     for (const glm::dvec2 at : common) {
@@ -90,7 +120,7 @@ std::optional<Meeting> meetingOf(const Space& a, const Space& b) {
         meeting.at += at / static_cast<double>(common.size());
     }
     meeting.apart = std::max({a_over_b, b_over_a, 0.0});
-    return meeting.apart < kHeadroom ? std::optional(meeting) : std::nullopt;
+    return meeting.apart < kHeadroom - kLeast ? std::optional(meeting) : std::nullopt;
 }
 
 void tellOf(const Meeting& meeting, const Link& first, const Link& second, Diagnostics& diagnostics) {
@@ -109,10 +139,10 @@ void tellOf(const Meeting& meeting, const Link& first, const Link& second, Diagn
 void checkLinksApart(const std::vector<Chart>& charts, const Layout& layout, Diagnostics& diagnostics) {
     std::vector<Space> spaces;
     for (const Chart& chart : charts)
-        if (chart.is_link && chart.stop == 0) spaces.emplace_back(chart, layout);
+        if (chart.is_link ? chart.stop == 0 : isLanding(chart, layout)) spaces.emplace_back(chart, layout);
     for (std::size_t i = 0; i < spaces.size(); ++i)
         for (std::size_t j = 0; j < i; ++j) {
-            if (spaces[i].isOfSameLink(spaces[j])) continue;
+            if (spaces[i].needsNoLook(spaces[j])) continue;
             if (const auto meeting = meetingOf(spaces[i], spaces[j]))
                 tellOf(*meeting, spaces[j].link(), spaces[i].link(), diagnostics);
         }

@@ -153,7 +153,7 @@ void main() {
     Surroundings around = lookAround(self, slot, wish, speed, in_peace, manners);
     if (around.in_peace) pace = min(pace, around.pace);
     vec2 acceleration = drive(wish, speed, pace, self.velocity) +
-                        notLedAway(walker, way, speed, around.room * shareOfRoom(speed)) +
+                        notLedAway(walker, way, around.room * shareOfRoom(speed)) +
                         company(self, walker, way, speed);
     vec2 wanted = self.velocity + acceleration * parameters.decision_seconds;
     vec2 legs = self.velocity;  // what they start from

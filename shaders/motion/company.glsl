@@ -40,12 +40,11 @@ vec2 company(Body self, Walker walker, vec2 way, float speed) {
 
 /// m/s^2: of the room that others want, what somebody makes who waits for its company. It makes way to a side, but is
 /// not driven on.
-vec2 notLedAway(Walker walker, vec2 way, float speed, vec2 room) {
-    bool waits = walker.party_size > 1u && speed < COMPANY_LETTING_GO * walker.preferred_speed;
-    if (!COMPANY_ENABLED || !waits) return room;
+vec2 notLedAway(Walker walker, vec2 way, vec2 room) {
+    if ((walker.flags & WALKER_WAITS) == 0u) return room;
     return room - way * max(dot(room, way), 0.0);
 }
 #else
 vec2 company(Body self, Walker walker, vec2 way, float speed) { return vec2(0.0); }
-vec2 notLedAway(Walker walker, vec2 way, float speed, vec2 room) { return room; }
+vec2 notLedAway(Walker walker, vec2 way, vec2 room) { return room; }
 #endif

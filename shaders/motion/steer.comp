@@ -90,7 +90,11 @@ void main() {
     speed *= paceOn(incline);
 #endif
 #ifdef PARTIES
-    if (in_party) speed *= paceInParty(row, walker, stage, ahead.remaining);
+    if (in_party) {
+        float pace = paceInParty(row, walker, stage, ahead.remaining);
+        if (COMPANY_ENABLED && pace < COMPANY_LETTING_GO) walkers[slot].flags |= WALKER_WAITS;
+        speed *= pace;
+    }
 #endif
     bool stopped = walker.status == STATUS_ARRIVED || walker.leave_step != 0u;
     speed = speedBeforeRest(speed, stage, ahead, stopped);

@@ -39,7 +39,7 @@ const uint TOUCH_WALL_SENSED = 0x40000000u;  // there is a wall among its neighb
 const uint TOUCH_IN_NARROWS = 0x20000000u;   // it is in a narrow passage, or close to one
 
 /// Touch lists hold this many slots; where more bodies crowd together, contact goes back to the cells.
-const uint TOUCH_CAPACITY = 16u;
+const uint TOUCH_CAPACITY = 24u;
 
 /// What is near enough to push somebody in the rounds of a step, where bodies are no discs
 /// (shaders/motion/capsules_apart.glsl): a word that counts bodies and says whether walls are near, like a
@@ -91,6 +91,7 @@ const uint WALKER_HELD = 0x40000u;        // it waits before a red crossing
 const uint WALKER_IN_DOORS = 0x80000u;    // it gets on or off a vehicle
 const uint WALKER_CLIMBS = 0x100000u;     // it goes up stairs
 const uint WALKER_DESCENDS = 0x200000u;   // it goes down stairs
+const uint WALKER_WAITS = 0x400000u;      // for its company
 const uint WALKER_AT_REST = 0x80000000u;  // it has come to rest where it waits
 const uint WALKER_IS_IMAGE =
     0x40000000u;  // it is the image of somebody beside a seam (shaders/shared/images.glsl)

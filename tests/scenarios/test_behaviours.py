@@ -246,6 +246,24 @@ def test_who_follows_somebody_is_where_it_went(bake):
     assert away.max() < 6, away
 
 
+@pytest.mark.parametrize("late", [False, True])
+def test_a_behaviour_says_how_fast_somebody_walks(bake, late):
+    """Also where others come in later: nobody's pace is made anew by that, and they have theirs from the beginning."""
+    layout = {"throng": 1, "simulation": {"duration": 14}, "areas": [
+        {"id": "start", "polygon": box(-1, -1, 2, 2)}, {"id": "end", "polygon": box(29, -1, 2, 2)}],
+        "behaviours": [{"id": "strolls", "start": "go", "states": {"go": {"walk_to": "end", "pace": 0.6}}}],
+        "formations": [{"id": "one", "type": "agents", "behaviour": "strolls", "people": {"speed": 1.4},
+                        "agents": [{"position": [0, 5]}]}]}
+    if late:
+        layout["flows"] = [{"id": "more", "from": "start", "count": 2, "start": 2, "end": 4, "behaviour": "strolls",
+                            "people": {"speed": 1.4}}]
+    baked = bake(f"pace {late}", layout)
+    speeds = numpy.linalg.norm(numpy.diff(baked.places, axis=0), axis=-1) * baked.fps
+    for row in range(speeds.shape[1]):
+        walks = numpy.flatnonzero(baked.doing[:, row] > 0)
+        assert numpy.median(speeds[walks[0] + 48:walks[-1], row]) == pytest.approx(0.84, abs=0.02)
+
+
 def test_who_flees_gets_away(bake):
     layout = conditions({"at": 2}, then="run")
     layout["behaviours"][0]["states"] = {

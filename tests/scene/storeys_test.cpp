@@ -442,6 +442,17 @@ TEST(Storeys, LinksDoNotGoThroughEachOther) {
         << "3.75 m over each other";
     EXPECT_EQ(complaints(up, R"("from": "ground", "to": "upper", "path": [[-4, 2.1], [0, 2.1]])"), Texts{})
         << "railings touch";
+    const std::string turning =
+        R"("from": "ground", "to": "top", "path": [[-8, 3], [-2, 3], [-2, -3], [-8, -3]])";
+    EXPECT_EQ(complaints(turning, R"("from": "upper", "to": "top", "path": [[3, 0], [7, 0]])"), Texts{});
+    EXPECT_EQ(complaints(turning, R"("type": "lift", "levels": ["ground", "upper"], "at": [-2, 3])"),
+              Texts{"7: links `a, flight 1` and `b` go through each other at [-2.00, 3.00]"})
+        << "on its landing";
+    EXPECT_EQ(
+        complaints(R"("from": "ground", "to": "top", "path": [[-8, 0], [0, 0], [0, 4], [-4, 4], [-4, -4]])",
+                   R"("from": "upper", "to": "top", "path": [[3, 0], [7, 0]])"),
+        Texts{})
+        << "where one flight goes over another of the same link";
     EXPECT_EQ(complaints(up, R"("from": "upper", "to": "top", "path": [[-1.22, 0], [-5.22, 0]])"),
               Texts{"7: links `a` and `b` are only 0.99 m over each other at [-2.61, 0.00]"});
 }
