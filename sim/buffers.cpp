@@ -18,7 +18,7 @@ namespace {
 
 // How fast contact may move somebody between two decisions (m/s), and how far at the least (m), for it still
 // to be sure to meet everybody it is moved into.
-constexpr float kPushedAt = 2.4f, kLeastPush = 0.05f;
+constexpr float kPushedAt = 1.8f, kLeastPush = 0.05f;
 
 constexpr const char* kSitter = "person with a seat";
 

@@ -63,7 +63,7 @@ std::uint32_t pagesPerRange(std::uint32_t blocks_per_page) {
 }  // namespace
 
 /// Bins much larger than the tiles would offer every block too many that cannot reach it.
-constexpr float kMostBinRadii = 3.0f;
+constexpr float kMostBinRadii = 3.5f;
 
 BinnedDiagram::BinnedDiagram(const DiagramSetup& setup, Pages* pages)
     : library_(setup.library),

@@ -182,10 +182,16 @@ def test_stairs_are_climbed_as_weidmann_measured(throng, tmp_path, start, to, pa
 @pytest.mark.slow
 @pytest.mark.parametrize("start, to, most", [("hall", "gallery", 0.88), ("gallery", "hall", 1.1)])
 def test_stairs_that_are_pressed_upon_take_no_more_than_imo_allows(throng, tmp_path, start, to, most):
-    """IMO MSC.1/Circ.1533: specific flows of 0.88 persons/(s m) up and 1.1 down at most, within the 10 % by which single
-    crowds differ; without the rule of climbing 1.6. Three in five of that many come through, or stairs would jam."""
+    """IMO MSC.1/Circ.1533: specific flows of 0.88 persons/(s m) up and 1.1 down at most, as the mean of three crowds, of
+    which single ones differ; without the rule of climbing 1.6. Three in five of that many come through, or stairs would
+    jam."""
+    flows = [specific_flow(throng, tmp_path, start, to, seed) for seed in (1, 2, 3)]
+    assert 0.6 * most < min(flows) and numpy.mean(flows) < 1.05 * most and max(flows) < 1.2 * most, flows
+
+
+def specific_flow(throng, tmp_path, start, to, seed):
     layout = {
-        "throng": 1, "simulation": {"duration": 75},
+        "throng": 1, "simulation": {"duration": 75, "seed": seed},
         "levels": [{"id": "below", "floor": box(-22, -6, 0, 6)},
                    {"id": "upper", "height": 4, "floor": box(0, -6, 14, 6)}],
         "links": [{"id": "link", "type": "stairs", "from": "below", "to": "upper", "path": [[-8, 0], [0, 0]],
@@ -193,9 +199,11 @@ def test_stairs_that_are_pressed_upon_take_no_more_than_imo_allows(throng, tmp_p
         "areas": [{"id": "hall", "polygon": box(-21, -5, -13, 5)},
                   {"id": "gallery", "level": "upper", "polygon": box(6, -5, 13, 5)}],
         "flows": [{"id": "all", "from": start, "to": to, "count": 160, "end": 32}]}
-    figures = measured(throng, bake(throng, tmp_path, layout))
-    assert 0.6 * most < figures["links"][0]["specific_flow"] < 1.1 * most
+    folder = tmp_path / f"{start}-{seed}"
+    folder.mkdir()
+    figures = measured(throng, bake(throng, folder, layout))
     assert figures["deepest_overlap_percent"] < 2 and figures["wall_crossings"] == 0
+    return figures["links"][0]["specific_flow"]
 
 
 @pytest.mark.parametrize("cut", [False, True])
