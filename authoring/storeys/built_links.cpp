@@ -168,19 +168,13 @@ std::vector<BuiltLink> partsOf(const Layout& layout) {
     return parts;
 }
 
-/// The link of which a landing is a part: the flight that leads to it.
-std::size_t linkOf(const Chart& landing, const Layout& layout) {
-    const auto leads = [&](const Link& link) { return !link.isLift() && link.to == landing.index; };
-    return static_cast<std::size_t>(std::ranges::find_if(layout.links, leads) - layout.links.begin());
-}
-
 Room roomOf(const std::vector<BuiltLink>& parts, const Layout& layout, double below) {
     Room room(below);
     for (const BuiltLink& part : parts)
         if (part.chart.is_link)
             room.addChart(part.chart, layout);
         else
-            room.addLanding(part.chart, linkOf(part.chart, layout));
+            room.addLanding(part.chart, linkOfLanding(part.chart, layout));
     return room;
 }
 

@@ -167,6 +167,11 @@ bool areJoined(const Chart& a, std::size_t a_index, glm::dvec2 in_a, const Chart
            (a.link_to == b_index && isBeyond(a.link, 1, in_a, in_b));
 }
 
+std::size_t linkOfLanding(const Chart& landing, const Layout& layout) {
+    const auto leads = [&](const Link& link) { return !link.isLift() && link.to == landing.index; };
+    return static_cast<std::size_t>(std::ranges::find_if(layout.links, leads) - layout.links.begin());
+}
+
 std::vector<Chart> chartsOf(const Layout& layout) {
     std::vector<Chart> charts;
     for (std::size_t i = 0; i < layout.levels.size(); ++i)

@@ -66,6 +66,9 @@ inline constexpr std::size_t kNoLevel = static_cast<std::size_t>(-1);
 bool areJoined(const Chart& a, std::size_t a_index, glm::dvec2 in_a, const Chart& b, std::size_t b_index,
                glm::dvec2 in_b);
 
+/// The link of which a landing is a part, index into the layout's: the flight that leads to it.
+std::size_t linkOfLanding(const Chart& landing, const Layout& layout);
+
 /// Charts of the levels, in order, and then of the links, not yet laid out. A lift has one for each level
 /// that it serves: the cabin, as it stands there.
 std::vector<Chart> chartsOf(const Layout& layout);

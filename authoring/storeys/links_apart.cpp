@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "authoring/layout/polygon_check.h"
 #include "authoring/storeys/cabin.h"
 
 namespace throng::authoring {
@@ -32,31 +33,16 @@ Polygon leftPart(const Polygon& polygon, glm::dvec2 from, glm::dvec2 to) {
     return part;
 }
 
-double areaOf(const Polygon& polygon) {
-    double twice = 0.0;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const glm::dvec2 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-        twice += a.x * b.y - a.y * b.x;
-    }
-    return 0.5 * twice;
-}
-
 /// On a terrain, charts that are no links are its grounds.
 bool isLanding(const Chart& chart, const Layout& layout) {
     return !chart.surface && layout.levels[chart.index].is_landing;
-}
-
-/// The flight of which a landing is a part: the one that leads to it.
-const Link& flightTo(const Chart& landing, const Layout& layout) {
-    return *std::ranges::find_if(
-        layout.links, [&](const Link& link) { return !link.isLift() && link.to == landing.index; });
 }
 
 /// Where people walk on a flight or a landing, or what a cabin is moved through.
 class Space {
   public:
     Space(const Chart& chart, const Layout& layout)
-        : chart_(chart), link_(chart.is_link ? layout.links[chart.index] : flightTo(chart, layout)) {
+        : chart_(chart), link_(layout.links[chart.is_link ? chart.index : linkOfLanding(chart, layout)]) {
         if (!chart.is_link) heights_ = {layout.levels[chart.index].height, layout.levels[chart.index].height};
         for (std::size_t stop = 0; chart.is_cabin && stop < link_.lift.levels.size(); ++stop) {
             const double height = heightOfStop(layout, link_.lift, stop);
@@ -109,7 +95,7 @@ std::optional<Meeting> meetingOf(const Space& a, const Space& b) {
     for (std::size_t i = 0; i < other.size() && common.size() > 2; ++i)
         common = leftPart(common, other[i], other[(i + 1) % other.size()]);
     constexpr double kLeast = 1.0e-6;  // m^2, and m: less is rounding
-    if (common.size() < 3 || areaOf(common) < kLeast) return std::nullopt;
+    if (common.size() < 3 || signedArea(common) < kLeast) return std::nullopt;
     double a_over_b = std::numeric_limits<double>::infinity(), b_over_a = a_over_b;
     Meeting meeting;
     for (const glm::dvec2 at : common) {
