@@ -3,7 +3,8 @@
 //
 // A line may be too short for all who wait. Those who find no place in it any more stand round its end, the later ones
 // further out: anywhere in a disc will do that has room for all up to them. With one place for all of them they would
-// press on it for as long as they wait.
+// press on it for as long as they wait. Those who come stop beside the line, not in it: between two who stand there
+// already, whoever moves up would find its own place taken, and wedge itself in.
 
 /// A place in a line, and how near to it will do, m.
 struct PlaceInLine {
@@ -25,11 +26,29 @@ PlaceInLine placeInLine(WaitingLine line, uint nth) {
     return PlaceInLine(line_points[line.first_point + line.point_count - 1u], reach);
 }
 
-/// The nearest point that will do for somebody.
-vec2 nearestIn(PlaceInLine place, vec2 position) {
+/// The nearest point of a line.
+vec2 nearestOf(WaitingLine line, vec2 point) {
+    vec2 nearest = line_points[line.first_point];
+    for (uint i = line.first_point; i + 1u < line.first_point + line.point_count; ++i) {
+        vec2 along = line_points[i + 1u] - line_points[i];
+        float share = dot(point - line_points[i], along) / max(dot(along, along), 1.0e-6);
+        vec2 there = line_points[i] + clamp(share, 0.0, 1.0) * along;
+        if (distance(there, point) < distance(nearest, point)) nearest = there;
+    }
+    return nearest;
+}
+
+/// The nearest point that will do for somebody: round the end, beside the line.
+vec2 nearestIn(WaitingLine line, PlaceInLine place, vec2 position) {
     vec2 offset = position - place.point;
     float size = length(offset);
-    return size > place.reach ? place.point + offset * (place.reach / size) : position;
+    if (size <= place.reach) return position;
+    vec2 point = place.point + offset * (place.reach / size);
+    float clear = min(line.spacing, place.reach);
+    vec2 beside = nearestOf(line, point);
+    if (distance(point, beside) >= clear) return point;
+    vec2 aside = position - beside;
+    return beside + aside * min(1.0, clear / max(length(aside), 1.0e-6));
 }
 #endif
 
@@ -40,7 +59,7 @@ Stage stageOf(uint number, uint ticket, vec2 position) {
     if (stage.line == NO_INDEX) return stage;
     WaitingLine line = waiting_lines[stage.line];
     uint nth = (ticket == NO_INDEX ? line.given : ticket) - line.served;
-    stage.point = nearestIn(placeInLine(line, nth), position);
+    stage.point = nearestIn(line, placeInLine(line, nth), position);
 #endif
     return stage;
 }
