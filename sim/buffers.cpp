@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <glm/common.hpp>
 #include <glm/vec4.hpp>
+#include <map>
 #include <stdexcept>
 
 #include "base/wide_site.h"
@@ -147,6 +149,19 @@ gl::Definitions peculiaritiesOf(const authoring::Scene& scene) {
     return found;
 }
 
+/// As large as programs have it that are compiled with these.
+std::size_t bytesOfAWalker(const gl::Definitions& definitions) {
+    const std::map<std::string, std::size_t> more = {{"HEADWAYS", gl::kWord},
+                                                     {"PARTIES", 2 * gl::kWord},
+                                                     {"PLAN_CHANGES", gl::kWord},
+                                                     {"WAITING_LINES", gl::kWord},
+                                                     {"BODIES", gpu::MORE_OF_A_BODY}};
+    std::size_t bytes = sizeof(gpu::Walker);
+    for (const auto& [name, value] : definitions)
+        if (const auto found = more.find(name); found != more.end()) bytes += found->second;
+    return bytes;
+}
+
 /// A uniform block is as large as its shader says.
 std::vector<gpu::Belt> roomForAll(std::vector<gpu::Belt> belts) {
     if (!belts.empty()) belts.resize(gpu::NO_CHART);
@@ -269,7 +284,7 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
     const std::size_t cells = std::size_t{parameter_values.cells_width} * parameter_values.cells_height;
     const WallIndex walls = indexWalls(scene.wall_segments, parameter_values,
                                        parameter_values.contact_range + scene.largest_radius);
-    wall_starts = gl::makeBuffer("wall starts", walls.starts, "cell");
+    wall_starts = gl::makeBuffer("wall starts", startsOfMarked(walls), "32 cells");
     wall_items = gl::makeBuffer("wall items", walls.items, "wall near a cell");
     const auto before_narrows = static_cast<float>(scene.settings.motion.number("nearest_first", "before"));
     narrow_cells = gl::makeBuffer(
@@ -300,8 +315,7 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
 
     site_slots = gl::makeBuffer("site slots", initialSiteSlots(scene, rows), kSite);
     bodies = gl::Buffer("bodies", {rows, sizeof(gpu::Body), kPerson});
-    walkers = gl::Buffer("walkers",
-                         {rows, sizeof(gpu::Walker) + (has_bodies_ ? gpu::MORE_OF_A_WALKER : 0), kPerson});
+    walkers = gl::Buffer("walkers", {rows, bytesOfAWalker(definitions()), kPerson});
     sites = gl::Buffer("sites", {rows + scene.wall_tiles.size(), sizeof(gpu::DiagramSite), kSite});
     const std::vector<gpu::DiagramSite> fixed = wallSites(scene, parameter_values);
     if (!fixed.empty()) sites.upload(std::span<const gpu::DiagramSite>(fixed), rows);
@@ -314,7 +328,7 @@ Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter
     neighbours.fill(gpu::NO_INDEX);
     neighbour_counts = gl::Buffer("neighbour counts", {rows, gl::kWord, kPerson});
     touch_words = gl::Buffer("touch words", {rows, gl::kWord, kPerson});
-    touch_lists = gl::Buffer("touch lists", {rows, gl::kWord * gpu::TOUCH_CAPACITY, kPerson});
+    touch_lists = gl::Buffer("touch lists", {rows, gl::kWord * gpu::TOUCH_WORDS, kPerson});
     if (has_bodies_) near_lists = gl::Buffer("near lists", {rows, gl::kWord * gpu::NEAR_WORDS, kPerson});
     touch_slots = gl::Buffer("touch slots", {rows, gl::kWord, kPerson});
     touch_dispatch = gl::Buffer("touch dispatch", gl::kWord * 4);
@@ -410,6 +424,15 @@ gl::ComputeProgram Buffers::connect(const gl::ShaderLibrary& library, const gl::
     program.bindAll(named());
     if (program.hasUniform("field_cells")) program.bind("field_cells", field_cells);
     return program;
+}
+
+std::vector<gpu::Walker> Buffers::downloadWalkers(std::uint32_t count, std::uint32_t first) const {
+    const std::size_t bytes = walkers.contents()->element_bytes;
+    const auto words = walkers.download<std::uint32_t>(count * bytes / gl::kWord, first * bytes / gl::kWord);
+    std::vector<gpu::Walker> found(count);
+    for (std::size_t i = 0; i < count; ++i)
+        std::memcpy(&found[i], words.data() + i * bytes / gl::kWord, sizeof(gpu::Walker));
+    return found;
 }
 
 gl::Definitions Buffers::definitions(const MotionSettings& rules) const {

@@ -6,7 +6,6 @@
 #include <pthread.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <condition_variable>
 #include <deque>
@@ -81,7 +80,7 @@ struct FramePump::State {
     Simulation& simulation;
     Receiver receiver;
     Cargo cargo;
-    std::array<Slot, kFramesUnderWay> slots;
+    std::vector<Slot> slots;
     std::size_t next = 0;
     std::size_t rows = 0;
     DiagramImage image;  // all but the pixels
@@ -101,7 +100,10 @@ struct FramePump::State {
     std::thread thread;
 
     State(Simulation& the_simulation, const Cargo& the_cargo, Receiver the_receiver)
-        : simulation(the_simulation), receiver(std::move(the_receiver)), cargo(the_cargo) {}
+        : simulation(the_simulation),
+          receiver(std::move(the_receiver)),
+          cargo(the_cargo),
+          slots(framesUnderWay(the_simulation.parameters().row_count)) {}
 
     bool asksForDiagram() const;
     void packStreams(Slot& slot, bool of_diagram);
@@ -187,7 +189,7 @@ FramePump::~FramePump() {
 bool FramePump::submit(std::uint32_t index, bool with_diagram) {
     State& state = *state_;
     Slot& slot = state.slots[state.next];
-    state.next = (state.next + 1) % kFramesUnderWay;
+    state.next = (state.next + 1) % state.slots.size();
     while (!state.in_flight.empty() && state.in_flight.front() == &slot)
         state.handOver(true);
     {
@@ -209,7 +211,7 @@ bool FramePump::submit(std::uint32_t index, bool with_diagram) {
     if (state.simulation.lifts() > 0) slot.lifts.copyFrom(state.simulation.parts().buffers.lift_states);
     const Extent extent = with_diagram ? Extent::everywhere : Extent::near_people;
     if ((with_diagram || state.asksForDiagram()) && !state.simulation.buildDiagramNow(extent)) {
-        state.next = (state.next + kFramesUnderWay - 1) % kFramesUnderWay;
+        state.next = (state.next + state.slots.size() - 1) % state.slots.size();
         return false;
     }
     state.packStreams(slot, true);

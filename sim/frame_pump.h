@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 
@@ -9,8 +10,12 @@
 
 namespace throng::sim {
 
-/// So many frames may be on their way at once.
-inline constexpr std::size_t kFramesUnderWay = 3;
+/// So many frames may be on their way at once. Of large crowds two: a frame of theirs takes many times longer
+/// to make than a hiccup of its receiver lasts, and each is as large as all that two of their lists hold.
+constexpr std::uint32_t framesUnderWay(std::uint32_t people) {
+    constexpr std::uint32_t kLargeCrowd = 16384;
+    return people < kLargeCrowd ? 3 : 2;
+}
 
 /// Carries frames from the device to a receiver on another thread, without stopping the simulation: the
 /// device packs a frame into one of a few persistently mapped buffers, a fence says when it is there, and the

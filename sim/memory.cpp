@@ -70,7 +70,7 @@ MemoryNeeded memoryNeeded(const authoring::Scene& scene) {
         (isOfPeople(buffer) ? needed.people : needed.scene) += buffer.bytes;
     needed.scene += bytesOfDetours(scene, parameters);
     needed.diagram = bytesOfDiagram(scene, parameters, buffers);
-    needed.frames = kFramesUnderWay * bytesOfFrame(parameters.row_count);
+    needed.frames = framesUnderWay(parameters.row_count) * bytesOfFrame(parameters.row_count);
     return needed;
 }
 

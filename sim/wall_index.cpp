@@ -2,6 +2,7 @@
 #include "sim/wall_index.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -52,6 +53,29 @@ WallIndex indexWalls(std::span<const gpu::WallSegment> segments, const gpu::Para
     for (std::uint32_t i = 0; i < segments.size(); ++i)
         visitCells(segments[i], cells, reach, [&](std::size_t cell) { index.items[cursors[cell]++] = i; });
     return index;
+}
+
+std::vector<std::uint32_t> startsOfMarked(const WallIndex& index) {
+    const std::size_t cells = index.starts.size() - 1;
+    const std::size_t words = 2 * ((cells + 31) / 32);
+    std::vector<std::uint32_t> starts(words, 0);
+    for (std::size_t cell = 0; cell < cells; ++cell) {
+        std::uint32_t* mark = &starts[cell / 32 * 2];
+        if (cell % 32 == 0) mark[1] = static_cast<std::uint32_t>(starts.size());
+        if (index.starts[cell] == index.starts[cell + 1]) continue;
+        mark[0] |= 1u << cell % 32;
+        starts.push_back(index.starts[cell]);
+    }
+    starts.push_back(index.starts.back());
+    return starts;
+}
+
+glm::uvec2 wallsNear(std::span<const std::uint32_t> starts, std::size_t cell) {
+    const std::uint32_t marks = starts[cell / 32 * 2], bit = 1u << cell % 32;
+    if ((marks & bit) == 0) return {0, 0};
+    const std::size_t at =
+        starts[cell / 32 * 2 + 1] + static_cast<std::size_t>(std::popcount(marks & (bit - 1)));
+    return {starts[at], starts[at + 1]};
 }
 
 std::vector<std::uint32_t> markCells(std::span<const glm::vec2> places, const gpu::Parameters& cells,

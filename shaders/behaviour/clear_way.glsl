@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whether somebody can walk straight from one place to another: no wall comes nearer to the way than a body.
-// Needs the blocks ParametersBlock, WallSegments, WallStarts and WallItems, and shaders/cells/cells.glsl.
+// Needs the blocks ParametersBlock, WallSegments, WallStarts and WallItems, and shaders/cells/cells.glsl and
+// walls_near.glsl.
 #include "shaders/shared/outline.glsl"
 
 float cross2(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
@@ -24,7 +25,8 @@ bool wayIsClear(vec2 from, vec2 to, float radius) {
         uint cell = cellIndex(cellOf(mix(from, to, float(i) / float(steps))));
         if (cell == cell_before) continue;
         cell_before = cell;
-        for (uint item = wall_starts[cell]; item < wall_starts[cell + 1u]; ++item) {
+        uvec2 walls = wallsNear(cell);
+        for (uint item = walls.x; item < walls.y; ++item) {
             WallSegment wall = wall_segments[wall_items[item]];
             if (segmentsApart(from, to, wall.a, wall.b) < radius + wall.half_thickness) return false;
         }

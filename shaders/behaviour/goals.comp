@@ -24,9 +24,11 @@ uniform usamplerBuffer field_cells;  // FieldCell
 uniform uint steps_done;             // counted with this one
 
 #include "shaders/shared/random.glsl"
+#include "shaders/shared/walker.glsl"
 #include "shaders/shared/images.glsl"
 #include "shaders/shared/alive.glsl"
 #include "shaders/cells/cells.glsl"
+#include "shaders/cells/walls_near.glsl"
 #include "shaders/cells/cell_runs.glsl"
 #include "shaders/routes/route.glsl"
 #include "shaders/behaviour/draws.glsl"
@@ -53,7 +55,10 @@ void setOff(Seeker seeker, Mind mind, BehaviourState doing, Stage stage) {
     states[seeker.row].stage_end = walkers[seeker.slot].stage_end = mind.first_stage + (leaves ? 1u : 2u);
     states[seeker.row].status = walkers[seeker.slot].status = STATUS_WALKING;
     states[seeker.row].leave_step = walkers[seeker.slot].leave_step = 0u;
-    states[seeker.row].ticket = walkers[seeker.slot].ticket = NO_INDEX;
+    states[seeker.row].ticket = NO_INDEX;
+#ifdef WAITING_LINES
+    walkers[seeker.slot].ticket = NO_INDEX;
+#endif
     states[seeker.row].arrival_step = NO_INDEX;
     states[seeker.row].shortest_way = states[seeker.row].walked + routeAhead(stage, seeker.position).remaining;
 }
@@ -210,7 +215,8 @@ void goOn(Seeker seeker, inout Mind mind, BehaviourState doing, AgentState state
 Seeker seekerIn(uint slot) {
     Body body = bodies[slot];
     Walker walker = walkers[slot];
-    return Seeker(slot, body.row, walker.party_first, body.row - walker.party_first, walker.party_size, body.position,
+    uint leader = partyFirstOf(walker, body.row);
+    return Seeker(slot, body.row, leader, body.row - leader, partySizeOf(walker), body.position,
                   vec2(cos(body.heading), sin(body.heading)), body.radius);
 }
 

@@ -23,6 +23,7 @@ uniform uint steps_done;  // counted with this one
 #include "shaders/shared/random.glsl"
 #include "shaders/shared/images.glsl"
 #include "shaders/cells/cells.glsl"
+#include "shaders/shared/walker.glsl"
 #include "shaders/cells/cell_starts.glsl"
 #include "shaders/behaviour/draws.glsl"
 #include "shaders/behaviour/outlines.glsl"
@@ -41,7 +42,7 @@ void main() {
     bool has_been_there = state.stage != mind.first_stage;
     bool arrived = has_been_there || state.leave_step != 0u || state.status == STATUS_ARRIVED;
     if (behaviour_states[mind.state].does == DOES_SIT) arrived = false;  // it is before the aisle
-    Asking who = Asking(row, walkers[slot].party_first, bodies[slot].position, mind, arrived, true);
+    Asking who = Asking(row, partyFirstOf(walkers[slot], row), bodies[slot].position, mind, arrived, true);
     BehaviourState doing = behaviour_states[mind.state];
     uint next = mind.state;
     if (mind.let_go != 0u && mind.next != NO_INDEX)

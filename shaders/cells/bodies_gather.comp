@@ -31,9 +31,6 @@ layout(std430) writeonly buffer RowSlots { uint row_slots[]; };
 #ifdef BODIES
 layout(std430) readonly buffer Chests { Chest chests[]; };
 #include "shaders/shared/body_shape.glsl"
-#define SHAPE , chests[row].half_axis, chests[row].angle, chests[row].rate, axis.x, axis.y
-#else
-#define SHAPE
 #endif
 
 void main() {
@@ -67,16 +64,41 @@ void main() {
     body.row = row;
     body.maximum_speed = person.maximum_speed;
     bodies[slot] = body;
-#ifdef BODIES
-    vec2 axis = axisAt(chests[row].angle, chests[row].half_axis);
-#endif
     uint flags = person.flags;
 #ifdef CHARTS
     if (is_image) flags |= WALKER_IS_IMAGE;
 #endif
-    walkers[slot] = Walker(person.preferred_speed, person.headway, flags, person.party_first, person.party_size,
-                           person.change_count, state.status, state.stage, state.stage_end, state.leave_step,
-                           state.ticket, state.nervousness, 0u SHAPE);
+    Walker walker;
+    walker.preferred_speed = person.preferred_speed;
+    walker.flags = flags;
+    walker.status = state.status;
+    walker.stage = state.stage;
+    walker.stage_end = state.stage_end;
+    walker.leave_step = state.leave_step;
+    walker.nervousness = state.nervousness;
+    walker.way_through = 0u;
+#ifdef HEADWAYS
+    walker.headway = person.headway;
+#endif
+#ifdef PARTIES
+    walker.party_first = person.party_first;
+    walker.party_size = person.party_size;
+#endif
+#ifdef PLAN_CHANGES
+    walker.change_count = person.change_count;
+#endif
+#ifdef WAITING_LINES
+    walker.ticket = state.ticket;
+#endif
+#ifdef BODIES
+    walker.half_axis = chests[row].half_axis;
+    walker.chest = chests[row].angle;
+    walker.chest_rate = chests[row].rate;
+    vec2 axis = axisAt(walker.chest, walker.half_axis);
+    walker.axis_x = axis.x;
+    walker.axis_y = axis.y;
+#endif
+    walkers[slot] = walker;
 
     precise vec2 pixel = (body.position - parameters.diagram_minimum) * parameters.pixels_per_metre;
     DiagramSite site;

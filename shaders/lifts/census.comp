@@ -27,7 +27,6 @@ const float STRAIGHT = 1.2;  // the way to them is hardly longer than the straig
 const float STRIDE = 0.5;    // m along the way
 const float AT_DOORS = 0.8;  // m
 const float BEFORE = 0.5;    // m: where the way at the doors is asked for
-const float BETWEEN_DOORS = 0.25;  // m before and behind them
 
 /// The way at the doors of a stop, from the floor before them.
 RouteAhead wayAtDoors(LiftStop stop, Stage stage) {
@@ -85,7 +84,7 @@ bool comesIn(uint rider) {
     uint phase = rider & RIDER_PHASE;
     if (phase != RIDER_BOARDS && phase != RIDER_RIDES) return false;
     LiftState lift = lift_states[liftOf(rider)];
-    return doorsAreOpen(lift) && (phase == RIDER_BOARDS || goalOf(rider) != lift.stop);
+    return doorsAreOpen(lift) && !givesUp(lift) && (phase == RIDER_BOARDS || goalOf(rider) != lift.stop);
 }
 
 /// On a floor: what it has to do with the lifts there.
@@ -138,7 +137,7 @@ void countBetweenDoors(uint chart, vec2 home) {
         LiftStop stop = lift_stops[plan.first_stop + lift_states[lift].stop];
         if (chart != stop.chart && chart != stop.landing) continue;
         vec2 at = throughDoors(stop, home);
-        if (abs(at.x) < BETWEEN_DOORS && abs(at.y) < plan.half_door) atomicAdd(lift_wishes[lift].in_doors, 1u);
+        if (abs(at.x) < LIFT_BETWEEN_DOORS && abs(at.y) < plan.half_door) atomicAdd(lift_wishes[lift].in_doors, 1u);
     }
 }
 

@@ -16,7 +16,6 @@ layout(std430) readonly buffer States { AgentState states[]; };
 layout(std430) readonly buffer ChartShifts { vec2 chart_shifts[]; };  // m, by chart
 
 const uint MOST_AT_ONCE = 3u;     // who have been asked in and are not in yet
-const float GIVES_UP = 12.0;      // s: doors close on those who do not come in or get off
 const float CLOSES_FULL = 1.0;    // s
 
 uint stopsBeyond(uint stop, int way) { return way > 0 ? ~0u << (stop + 1u) : (1u << stop) - 1u; }
@@ -71,16 +70,20 @@ void setOut(inout LiftState lift, LiftPlan plan, LiftWishes wishes) {
 }
 
 /// Of the free spots in the row that is furthest from the doors, the one nearest to a place in the cabin. Where several
-/// come in at once, nobody has to get past anybody.
+/// come in at once, nobody has to get past anybody. In the row at the doors, the middle stays free the longest: the last
+/// ones have to get by who stands there already.
 uint freeSpot(LiftState lift, LiftPlan plan, uint taken, vec2 home) {
-    bool backwards = dot(lift_stops[plan.first_stop + lift.stop].along, lift_stops[plan.first_stop].along) < 0.0;
+    LiftStop stop = lift_stops[plan.first_stop + lift.stop];
+    bool backwards = dot(stop.along, lift_stops[plan.first_stop].along) < 0.0;
+    uint row_at_doors = backwards ? 0u : (plan.capacity - 1u) / plan.columns;
     uint best = NO_SPOT, best_row = NO_SPOT;
     float least = 1.0e30;
     for (uint i = 0u; i < plan.capacity; ++i) {
         uint spot = backwards ? plan.capacity - 1u - i : i, at_row = spot / plan.columns;
         if ((taken >> spot & 1u) != 0u) continue;
         if (best != NO_SPOT && at_row != best_row) break;
-        float away = distance(home, spotPlace(plan, spot));
+        vec2 place = spotPlace(plan, spot);
+        float away = at_row == row_at_doors ? -abs(throughDoors(stop, place).y) : distance(home, place);
         if (away >= least) continue;
         least = away;
         best = spot;
@@ -113,10 +116,10 @@ void giveSpot(LiftState lift, LiftPlan plan, LiftWishes wishes) {
 void serve(inout LiftState lift, LiftPlan plan, LiftWishes wishes) {
     giveSpot(lift, plan, wishes);
     bool full = wishes.aboard + wishes.boarding >= plan.capacity;
-    if (askIn(lift, plan, wishes) || wishes.aboard != lift.aboard) lift.idle = 0.0;
+    if ((!givesUp(lift) && askIn(lift, plan, wishes)) || wishes.aboard != lift.aboard) lift.idle = 0.0;
     lift.aboard = wishes.aboard;
     bool is_waited_for = wishes.leaving > 0u || wishes.boarding > 0u || wishes.in_doors > 0u;
-    float patience = is_waited_for ? GIVES_UP : full ? min(CLOSES_FULL, plan.dwell) : plan.dwell;
+    float patience = is_waited_for ? LIFT_GIVES_UP : full ? min(CLOSES_FULL, plan.dwell) : plan.dwell;
     if (lift.idle >= patience && wishes.in_doors == 0u) enter(lift, LIFT_CLOSES);
 }
 

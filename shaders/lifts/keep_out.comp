@@ -51,7 +51,8 @@ void main() {
         LiftStop stop = lift_stops[cabin_stops[chart]];
         LiftState lift = lift_states[stop.lift];
         bool here = cabin_stops[chart] == lift_plans[stop.lift].first_stop + lift.stop;
-        bool gets_off = phase == RIDER_RIDES && goalOf(rider) == lift.stop && here && doorsAreOpen(lift);
+        bool gets_off = phase == RIDER_RIDES && here && doorsAreOpen(lift) &&
+                        (goalOf(rider) == lift.stop || stepsBack(lift, stop, from));
         if (!gets_off) to = keptIn(stop, self.radius, from, to);
     } else if (phase != RIDER_BOARDS) {
         for (uint i = 0u; i < LIFT_STOPS; ++i)

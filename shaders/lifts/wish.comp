@@ -54,6 +54,7 @@ Way wayOf(uint rider, uint row, vec2 home, float radius) {
     if (phase == RIDER_BOARDS) return Way(throughTo(stop, plan, radius, at, -1.0, WITHIN), 0.0);
     if (goalOf(rider) == state.stop && doorsAreOpen(state))
         return Way(throughTo(stop, plan, radius, at, 1.0, -OUTSIDE), 0.0);
+    if (stepsBack(state, stop, home)) return Way(throughTo(stop, plan, radius, at, 1.0, -OUTSIDE), 0.0);
     if (at.x < radius + PAST_JAMBS) {  // beside the doors there are walls
         float room = roomInDoors(plan, radius);
         return Way(atDoors(stop, vec2(radius + WITHIN, clamp(at.y, -room, room))), 0.01);

@@ -35,6 +35,7 @@ uniform uint slot_capacity;
 #include "shaders/shared/images.glsl"
 #include "shaders/shared/snap.glsl"
 #include "shaders/cells/cells.glsl"
+#include "shaders/cells/walls_near.glsl"
 #include "shaders/shared/walls.glsl"
 #include "shaders/motion/climbing.glsl"
 #include "shaders/motion/linear_program.glsl"
@@ -107,7 +108,7 @@ void main() {
 #ifdef BODIES
     axis_of_self = vec2(walker.axis_x, walker.axis_y);
 #endif
-#ifdef DOORS
+#if defined(DOORS) && defined(PARTIES)
     if ((walker.flags & WALKER_IN_DOORS) != 0u) walker.party_size = 1u;  // nobody waits for company in a door
 #endif
     vec2 wish = preferred_velocities[slot];

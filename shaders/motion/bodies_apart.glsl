@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bodies apart: those that overlap are pushed away from each other, each by its share.
-// Needs the blocks Bodies, Weights, TouchLists and TargetsBefore, shaders/cells/cells.glsl and cell_runs.glsl, and
-// shaders/motion/nearest_first.glsl and apart_direction.glsl.
+// Needs the blocks Bodies, Weights, TouchLists and TargetsBefore, shaders/cells/cells.glsl and cell_runs.glsl,
+// shaders/shared/touch_list.glsl, and shaders/motion/nearest_first.glsl and apart_direction.glsl.
 
 /// What one neighbour adds to the push: direction and depth, and one more to average over.
 void addPush(Body self, uint self_slot, vec2 mine, uint slot, vec2 position, inout vec3 push) {
@@ -24,7 +24,7 @@ vec2 pushFromNeighbours(Body self, uint self_slot, uint touching, vec2 position)
     vec2 mine = bracing > 0.0 ? weights[self_slot] : vec2(1.0, 0.0);
     if (touching <= TOUCH_CAPACITY) {
         for (uint i = 0u; i < touching; ++i)
-            addPush(self, self_slot, mine, touch_lists[self_slot * TOUCH_CAPACITY + i], position, push);
+            addPush(self, self_slot, mine, touchSlot(self_slot, i), position, push);
     } else {
         ivec2 cell = cellOf(self.position);
         for (int y = cell.y - 1; y <= cell.y + 1; ++y) {

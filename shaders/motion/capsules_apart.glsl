@@ -10,7 +10,8 @@
 // Loops are such that they run once for each who is near, and never once more: where invocations run in step, whoever
 // is done waits for the others, and a loop that asks before each turn takes one turn for nothing.
 // Needs the blocks ParametersBlock, Bodies, Weights, TouchLists, NearLists and TargetsBefore, shaders/cells/cells.glsl
-// and cell_runs.glsl, shaders/shared/body_shape.glsl, shoulders.glsl, nearest_first.glsl and apart_direction.glsl.
+// and cell_runs.glsl, shaders/shared/touch_list.glsl, body_shape.glsl, shoulders.glsl, nearest_first.glsl and
+// apart_direction.glsl.
 
 /// m: whoever is further apart than this after the first round does not touch in the others.
 const float NEAR_ENOUGH = 3.0e-1;
@@ -68,7 +69,7 @@ float addPush(Body self, uint self_slot, vec2 mine, uint slot, vec4 target, inou
 #ifdef FIRST_ROUND
 
 const uint LISTED = TOUCH_CAPACITY;
-uint listed(uint self_slot, uint nth) { return touch_lists[self_slot * TOUCH_CAPACITY + nth]; }
+uint listed(uint self_slot, uint nth) { return touchSlot(self_slot, nth); }
 
 uint near = 0u;  // how many are; the list holds the first NEAR_CAPACITY
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Out of walls, for bodies that are no discs: the middle of a body stays on the side of a wall on which it began the
 // step, and so do its shoulders. A wall turns a body as far as its chest turns in a step, and moves it by the rest.
-// Needs the blocks WallSegments, WallStarts and WallItems, shaders/cells/cells.glsl, shaders/shared/walls.glsl,
-// shaders/shared/body_shape.glsl and shoulders.glsl.
+// Needs the blocks WallSegments, WallStarts and WallItems, shaders/cells/cells.glsl and walls_near.glsl,
+// shaders/shared/walls.glsl and body_shape.glsl, and shaders/motion/shoulders.glsl.
 
 /// The place, less where a step from `before` has passed through the wall itself, not only round its end.
 vec2 notThroughWall(WallSegment wall, vec2 before, vec2 position, out float side_before) {
@@ -50,8 +50,9 @@ void pushFromWall(WallSegment wall, Body self, vec2 start, bool turns, inout vec
 /// began the step. @returns how many they are; the list holds NEAR_WALLS of them at most
 uint noteWalls(Body self, uint slot) {
     uint cell = cellIndex(cellOf(self.position));
+    uvec2 walls = wallsNear(cell);
     uint found = 0u;
-    for (uint i = wall_starts[cell]; i < wall_starts[cell + 1u]; ++i) {
+    for (uint i = walls.x; i < walls.y; ++i) {
         WallSegment wall = wall_segments[wall_items[i]];
         float away = length(nearestOnSegment(self.position, wall.a, wall.b) - self.position);
         if (away - wall.half_thickness - self.radius >= NEAR_ENOUGH) continue;
@@ -66,8 +67,9 @@ uint noteWalls(Body self, uint slot) {
 /// @param listed how many walls the list holds: 0 where they are those of the cell
 vec4 keepOutOfWalls(Body self, uint slot, uint listed_walls, vec2 start, vec4 target) {
     uint cell = cellIndex(cellOf(self.position));
-    uint first = listed_walls > 0u ? slot * NEAR_WORDS + 1u + NEAR_CAPACITY : wall_starts[cell];
-    uint last = listed_walls > 0u ? first + listed_walls : wall_starts[cell + 1u];
+    uvec2 walls = uvec2(0u, listed_walls) + slot * NEAR_WORDS + 1u + NEAR_CAPACITY;
+    if (listed_walls == 0u) walls = wallsNear(cell);
+    uint first = walls.x, last = walls.y;
     if (first >= last) return target;  // it has come into another cell since it last looked round
     // Leaving one wall may lead into the next: a few rounds settle corners, the last ones without turning.
     int round = 0;

@@ -45,7 +45,9 @@ void takeOver(uint slot, AgentState state) {
     walkers[slot].stage = state.stage;
     walkers[slot].stage_end = state.stage_end;
     walkers[slot].leave_step = state.leave_step;
+#ifdef WAITING_LINES
     walkers[slot].ticket = state.ticket;
+#endif
     walkers[slot].nervousness = state.nervousness;
 #ifdef BODIES
     Chest chest = chests[bodies[slot].row];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Coming to rest: those who stop slow down before their place, and close in on the last decimetres instead of
 // overshooting. Who has stopped further away, because its place was full, stays where it is.
+#include "shaders/shared/walker.glsl"
 
 /// m/s.
 float speedBeforeRest(float speed, Stage stage, RouteAhead ahead, bool stopped) {
@@ -17,5 +18,5 @@ bool hasComeToRest(Walker walker, Stage stage, RouteAhead ahead, bool stopped, f
     if (stopped && (stage.flags & STAGE_IN_AREA) != 0u) return true;
     if (stopped && stage.dwell > 0.0 && ahead.remaining <= AT_REST_CONTENT) return true;
     bool past = dot(ahead.direction, vec2(cos(heading), sin(heading))) < 0.0;
-    return walker.ticket != NO_INDEX && ahead.remaining <= (past ? AT_REST_PAST : AT_REST_CONTENT);
+    return ticketOf(walker) != NO_INDEX && ahead.remaining <= (past ? AT_REST_PAST : AT_REST_CONTENT);
 }

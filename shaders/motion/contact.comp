@@ -41,7 +41,9 @@ uniform float bracing;   // 1 = who is carried off its way gives less than other
 #include "shaders/shared/at_most.glsl"
 #include "shaders/shared/snap.glsl"
 #include "shaders/cells/cells.glsl"
+#include "shaders/cells/walls_near.glsl"
 #include "shaders/cells/cell_runs.glsl"
+#include "shaders/shared/touch_list.glsl"
 #include "shaders/shared/walls.glsl"
 #include "shaders/motion/walking_behind.glsl"
 #include "shaders/motion/urgency.glsl"
@@ -91,7 +93,7 @@ void main() {
 #ifdef BODIES
     vec2 start = vec2(walkers[slot].axis_x, walkers[slot].axis_y);
     vec4 target = targets_before[slot];
-    Push push = pushFromNeighbours(self, slot, touch_word & TOUCH_COUNT_MASK, target);
+    Push push = pushFromNeighbours(self, slot, touchesListed(touch_word), target);
     target.xy += snapped(atMost(push.way, CONTACT_MOST_PUSH * self.radius));
     target.zw = turnedBy(target.zw, push.turn);
     target = goneOn(targets_after[slot], target);
@@ -111,7 +113,7 @@ void main() {
     targets_after[slot] = target;
 #else
     vec2 position = targets_before[slot];
-    vec2 push = pushFromNeighbours(self, slot, touch_word & TOUCH_COUNT_MASK, position);
+    vec2 push = pushFromNeighbours(self, slot, touchesListed(touch_word), position);
     position += snapped(atMost(push, CONTACT_MOST_PUSH * self.radius));
     position = goneOn(targets_after[slot], position);
     targets_after[slot] = (touch_word & TOUCH_WALL_NEAR) != 0u ? outOfWalls(self, position) : position;

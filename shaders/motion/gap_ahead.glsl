@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The gap ahead: how much room there is between the walls on both sides of one's way.
-// Needs the blocks WallSegments, WallStarts and WallItems, shaders/cells/cells.glsl and shaders/motion/shoulders.glsl.
+// Needs the blocks WallSegments, WallStarts and WallItems, shaders/cells/cells.glsl and walls_near.glsl, and
+// shaders/motion/shoulders.glsl.
 
 #ifdef BODIES
 
@@ -35,7 +36,8 @@ float twistAhead(Body self, Walker walker, vec2 way) {
     if (!SHOULDERS_ENABLED || walker.half_axis <= 0.0) return 0.0;
     uint cell = cellIndex(cellOf(self.position));
     vec2 sides = vec2(NO_GAP);
-    for (uint i = wall_starts[cell]; i < wall_starts[cell + 1u]; ++i)
+    uvec2 walls = wallsNear(cell);
+    for (uint i = walls.x; i < walls.y; ++i)
         if (narrowed(self.position, way, self.radius, wall_segments[wall_items[i]], sides)) return 0.0;
     return twistFor(sides.x + sides.y, self.radius, self.radius - walker.half_axis);
 }

@@ -4,9 +4,10 @@
 // 2, with the free way between discs). Crowds that walk one way then slow down with their density as people's do
 // (Weidmann 1993). Who follows looks for a way past at the speed it would like, and does not hurry for those behind.
 // Needs shaders/motion/walking_behind.glsl.
+#include "shaders/shared/walker.glsl"
 
 /// s; 0 = presses on.
-float headwayOf(Walker walker) { return HEADWAY_ENABLED ? walker.headway : 0.0; }
+float headwayOf(Walker walker) { return HEADWAY_ENABLED ? ownHeadwayOf(walker) : 0.0; }
 
 /// m/s: how fast one walks behind one other person, at most `speed`.
 /// @param offset from oneself to the other, m

@@ -19,6 +19,7 @@ layout(std430) readonly buffer CrossingPoints { vec2 crossing_points[]; };
 layout(std430) readonly buffer Lights { uint lights[]; };
 #include "shaders/traffic/crossings.glsl"
 #include "shaders/cells/cells.glsl"
+#include "shaders/cells/walls_near.glsl"
 #include "shaders/shared/walls.glsl"
 #include "shaders/motion/out_of_walls.glsl"
 

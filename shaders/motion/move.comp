@@ -92,7 +92,7 @@ void main() {
 #else
     state.walked += distance_moved;
 #endif
-    bool has_new_plans = changePlans(state, walkers[slot].change_count, self.row);
+    bool has_new_plans = changePlans(state, walkers[slot], self.row);
     if (has_new_plans) stage = stageOf(state.stage, state.ticket, state.position);
     RouteAhead ahead = freeRouteAhead(stage, state.position);
     if (has_new_plans || state.shortest_way <= 0.0)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Out of walls: a body stays on the side of a wall on which it began the step, whatever pushes it.
-// Needs the blocks WallSegments, WallStarts and WallItems, shaders/cells/cells.glsl and shaders/shared/walls.glsl.
+// Needs the blocks WallSegments, WallStarts and WallItems, shaders/cells/cells.glsl and walls_near.glsl, and
+// shaders/shared/walls.glsl.
 
 /// Moves `position` to the side of the wall that `before` is on, clear of it by the body's radius.
 vec2 pushFromWall(WallSegment wall, vec2 before, vec2 position, float radius) {
@@ -24,13 +25,11 @@ vec2 pushFromWall(WallSegment wall, vec2 before, vec2 position, float radius) {
 }
 
 vec2 keepOutOfWalls(Body self, vec2 position) {
-    uint cell = cellIndex(cellOf(self.position));
-    uint first = wall_starts[cell];
-    uint last = wall_starts[cell + 1u];
+    uvec2 walls = wallsNear(cellIndex(cellOf(self.position)));
     // Leaving one wall may lead into the next: a few rounds settle corners.
     for (int round = 0; round < 3; ++round) {
         vec2 was = position;
-        for (uint i = first; i < last; ++i)
+        for (uint i = walls.x; i < walls.y; ++i)
             position = pushFromWall(wall_segments[wall_items[i]], self.position, position, self.radius);
         if (position == was) break;
     }

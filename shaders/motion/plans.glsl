@@ -79,9 +79,9 @@ void followRoute(inout AgentState state, Stage stage, RouteAhead ahead, uint row
 }
 
 /// @returns whether plans have changed
-bool changePlans(inout AgentState state, uint change_count, uint row) {
+bool changePlans(inout AgentState state, Walker walker, uint row) {
 #ifdef PLAN_CHANGES
-    if (state.changes >= change_count) return false;
+    if (state.changes >= walker.change_count) return false;
     PlanChange change = plan_changes[people[row].first_change + state.changes];
     if (change.start_step > steps_done) return false;
     state.changes += 1u;

@@ -33,7 +33,7 @@ float takenBack(vec2 velocity, vec2 facing, vec2 feet) {
 /// @param wanted the velocity that it is to have next
 /// @param legs the velocity that legs start from
 void plantFeet(Body self, Walker walker, uint feet, inout vec2 wanted, inout vec2 legs) {
-    bool in_line = walker.ticket != NO_INDEX;
+    bool in_line = ticketOf(walker) != NO_INDEX;
     if (!PLANTED_FEET_ENABLED || (!in_line && ((feet & FEET_IN_TRAFFIC) == 0u || !isUnderWay(walker)))) return;
     bool waits = in_line || (feet & FEET_WAIT) != 0u;
     vec2 facing = vec2(cos(self.heading), sin(self.heading));

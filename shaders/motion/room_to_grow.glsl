@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How much somebody may grow until it next looks round.
 // Needs the blocks ParametersBlock, Bodies, Walkers, WallSegments, WallStarts and WallItems,
-// shaders/cells/cells.glsl and cell_runs.glsl.
+// shaders/cells/cells.glsl, cell_runs.glsl and walls_near.glsl.
 
 #include "shaders/shared/body_shape.glsl"
 #include "shaders/shared/walls.glsl"
@@ -47,8 +47,8 @@ float roomToGrow(uint slot) {
         for (uint other = run.x; other < run.y; ++other)
             if (other != slot) room = min(room, 0.5 * freeOf(slot, other));
     }
-    uint index = cellIndex(cell);
-    for (uint i = wall_starts[index]; i < wall_starts[index + 1u]; ++i)
+    uvec2 walls = wallsNear(cellIndex(cell));
+    for (uint i = walls.x; i < walls.y; ++i)
         room = min(room, freeOf(slot, wall_segments[wall_items[i]]));
     return max(room, 0.0);
 }

@@ -25,6 +25,7 @@ uniform uint patch_count;
 uniform float now;  // s
 
 #include "shaders/cells/cells.glsl"
+#include "shaders/cells/walls_near.glsl"
 #include "shaders/cells/cell_runs.glsl"
 #include "shaders/motion/on_patch.glsl"
 #include "shaders/motion/room_to_grow.glsl"

@@ -17,7 +17,7 @@ float paceOnBelt(Body self, Walker walker, uint slot, float pace) {
     Ride ride = rideOn(beltOf(flags), (flags & WALKER_IS_CARRIED) != 0u, self.position - states[self.row].rest);
     if (ride.on && stepsOff(ride)) return pace;
     vec2 forward = belts[ride.chart].along;
-    float to_lane = laneOf(ride, walksOnBelt(ride, walker.party_first)) - ride.aside;
+    float to_lane = laneOf(ride, walksOnBelt(ride, partyFirstOf(walker, self.row))) - ride.aside;
     for (uint i = 0u; i < neighbour_counts[slot]; ++i) {
         uint key = neighbourKey(slot, i);
         if ((key & NEIGHBOUR_IS_WALL) != 0u) continue;

@@ -61,7 +61,7 @@ void main() {
     uint row = bodies[slot].row;
     vec2 position = bodies[slot].position;
     Walker walker = walkers[slot];
-    Stage stage = stageOf(walker.stage, walker.ticket, position);
+    Stage stage = stageOf(walker.stage, ticketOf(walker), position);
     RouteAhead ahead = wayAhead(stage, position, bodies[slot].velocity,
                                 neighbour_counts[slot], walker.nervousness);
 
@@ -79,7 +79,7 @@ void main() {
     Ride ride = rideAt(position, direction);
     walkers[slot].flags |= flagsOf(ride);
     bool rides = RIDING_ENABLED && ride.chart != NO_CHART;
-    bool walks = rides && walksOnBelt(ride, walker.party_first);
+    bool walks = rides && walksOnBelt(ride, partyFirstOf(walker, row));
     if (rides) direction = wayOnBelt(ride, walks, direction);
 #endif
 

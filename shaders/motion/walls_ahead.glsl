@@ -2,7 +2,8 @@
 // Walls ahead: a wall allows no more speed towards its nearest point than reaches it at the horizon. Bodies inside
 // walls are to leave them soon; the contact pass takes them out in any case.
 // Needs the blocks TouchWords, Neighbours, NeighbourCounts, WallSegments, WallStarts and WallItems,
-// shaders/cells/cells.glsl, shaders/shared/walls.glsl, and shaders/motion/linear_program.glsl and half_width.glsl.
+// shaders/cells/cells.glsl and walls_near.glsl, shaders/shared/walls.glsl, and shaders/motion/linear_program.glsl and
+// half_width.glsl.
 
 /// s: in narrow passages people do not slow down for a wall that they will not walk into.
 float wallHorizon(bool takes_turns) {
@@ -27,9 +28,8 @@ int gatherWalls(Body self, Walker walker, uint slot) {
     uint kept[WALL_CONSTRAINTS];
     float distances[WALL_CONSTRAINTS];
     int count = 0;
-    uint cell = cellIndex(cellOf(self.position));
-    uint first = wall_starts[cell];
-    uint near_by = wall_starts[cell + 1u] - first;
+    uvec2 walls = wallsNear(cellIndex(cellOf(self.position)));
+    uint first = walls.x, near_by = walls.y - walls.x;
     uint sensed = neighbour_counts[slot];
     for (uint i = 0u; i < near_by + sensed; ++i) {
         uint segment;

@@ -12,12 +12,13 @@ layout(std430) readonly buffer NarrowCells { uint narrow_cells[]; };  // a bit e
 layout(std430) writeonly buffer Neighbours { uint neighbours[]; };
 layout(std430) writeonly buffer NeighbourCounts { uint neighbour_counts[]; };
 layout(std430) writeonly buffer TouchWords { uint touch_words[]; };
-layout(std430) writeonly buffer TouchLists { uint touch_lists[]; };  // TOUCH_CAPACITY slots each
+layout(std430) writeonly buffer TouchLists { uint touch_lists[]; };  // TOUCH_WORDS each
 layout(std430) buffer TouchDispatch { uint touch_groups[3]; uint touch_count; };
 layout(std430) writeonly buffer TouchSlots { uint touch_slots[]; };  // those whom the contact pass has to look at
 uniform uint slot_capacity;
 
 #include "shaders/cells/cells.glsl"
+#include "shaders/cells/walls_near.glsl"
 #include "shaders/cells/cell_runs.glsl"
 #include "shaders/shared/walls.glsl"
 
@@ -53,7 +54,8 @@ void keepNearest(float distance_squared, uint key) {
 uint feelContacts(Body self, uint self_slot) {
     ivec2 cell = cellOf(self.position);
     uint cell_number = cellIndex(cell);
-    uint touching = 0u;
+    uint touching = 0u, two = 0u;
+    bool unlisted = false;
     float reach = self.radius + parameters.contact_slack;
     float range_squared = parameters.contact_range * parameters.contact_range;
     for (int y = cell.y - 1; y <= cell.y + 1; ++y) {
@@ -65,13 +67,17 @@ uint feelContacts(Body self, uint self_slot) {
             keepNearest(distance_squared, slot);
             float touch_distance = reach + bodies[slot].radius;
             if (distance_squared > touch_distance * touch_distance) continue;
-            if (touching < TOUCH_CAPACITY) touch_lists[self_slot * TOUCH_CAPACITY + touching] = slot;
+            int after = int(slot - self_slot);
+            unlisted = unlisted || after != bitfieldExtract(after, 0, 16);
+            two = touching % 2u == 0u ? uint(after) & 0xffffu : two | uint(after) << 16;
+            if (touching < TOUCH_CAPACITY) touch_lists[self_slot * TOUCH_WORDS + touching / 2u] = two;
             ++touching;
         }
     }
-    bool walls = wall_starts[cell_number] != wall_starts[cell_number + 1u];
+    bool walls = hasWalls(cell_number);
     bool narrow = (narrow_cells[cell_number / 32u] >> cell_number % 32u & 1u) != 0u;
-    return min(touching, TOUCH_COUNT_MASK) | (walls ? TOUCH_WALL_NEAR : 0u) | (narrow ? TOUCH_IN_NARROWS : 0u);
+    return min(touching, TOUCH_COUNT_MASK) | (walls ? TOUCH_WALL_NEAR : 0u) | (narrow ? TOUCH_IN_NARROWS : 0u) |
+           (unlisted ? TOUCH_UNLISTED : 0u);
 }
 
 void forgetEverybody() {

@@ -37,9 +37,13 @@ const uint TOUCH_COUNT_MASK = 0xffffu;
 const uint TOUCH_WALL_NEAR = 0x80000000u;    // the cell's list of walls is not empty
 const uint TOUCH_WALL_SENSED = 0x40000000u;  // there is a wall among its neighbours
 const uint TOUCH_IN_NARROWS = 0x20000000u;   // it is in a narrow passage, or close to one
+const uint TOUCH_UNLISTED = 0x10000000u;     // its list does not reach one of them
 
-/// Touch lists hold this many slots; where more bodies crowd together, contact goes back to the cells.
+/// Touch lists hold this many slots; where more bodies crowd together, contact goes back to the cells. They
+/// are told by how many slots they come after the person's own: 16 bits, with a sign, two to a word
+/// (shaders/shared/touch_list.glsl).
 const uint TOUCH_CAPACITY = 24u;
+const uint TOUCH_WORDS = TOUCH_CAPACITY / 2u;
 
 /// What is near enough to push somebody in the rounds of a step, where bodies are no discs
 /// (shaders/motion/capsules_apart.glsl): a word that counts bodies and says whether walls are near, like a
@@ -100,18 +104,27 @@ const uint WALKER_IS_IMAGE =
 /// follow.
 struct Walker {
     float preferred_speed;  // m/s, and so on as in Person
-    float headway;
     uint flags;
-    uint party_first;
-    uint party_size;
-    uint change_count;
     uint status;  // and so on as in AgentState
     uint stage;
     uint stage_end;
     uint leave_step;
-    uint ticket;
     float nervousness;
     uint way_through;  // where its way leads beyond a narrow passage: a direction, packed (snorm 2 x 16)
+    // What only some scenes have anything in; shaders/shared/walker.glsl says what is so in the others.
+#ifdef HEADWAYS
+    float headway;  // as in Person
+#endif
+#ifdef PARTIES
+    uint party_first;  // as in Person
+    uint party_size;
+#endif
+#ifdef PLAN_CHANGES
+    uint change_count;  // as in Person
+#endif
+#ifdef WAITING_LINES
+    uint ticket;  // as in AgentState
+#endif
 #ifdef BODIES
     float half_axis;   // m, as in Person
     float chest;       // rad, at the start of the step, as in Chest
@@ -155,7 +168,7 @@ struct SlotImage {
 
 /// What a program of a crowd with bodies that are no discs (BODIES) has more of each person than C++ says,
 /// bytes.
-const uint MORE_OF_A_WALKER = 20u;
+const uint MORE_OF_A_BODY = 20u;
 const uint MORE_OF_A_DECISION = 8u;
 
 /// A site of the diagram, in pixels from the window's corner.

@@ -152,7 +152,7 @@ class Follower::Eye {
         bodies_ = parts_.buffers.bodies.download<gpu::Body>(live);
         for (auto& [row, watched] : watched_)
             watched.slot.reset();
-        const auto walkers = parts_.buffers.walkers.download<gpu::Walker>(live);
+        const auto walkers = parts_.buffers.downloadWalkers(live);
         for (std::uint32_t slot = 0; slot < live; ++slot) {
             const auto found = watched_.find(bodies_[slot].row);
             if (found == watched_.end() || (walkers[slot].flags & gpu::WALKER_IS_IMAGE) != 0) continue;
@@ -171,7 +171,7 @@ class Follower::Eye {
     glm::vec2 groundUnder(std::uint32_t slot) const {
         const std::vector<gpu::Belt>& belts = scene_.chart_map.belts;
         if (belts.empty()) return glm::vec2(0.0f);
-        const std::uint32_t flags = parts_.buffers.walkers.download<gpu::Walker>(1, slot).front().flags;
+        const std::uint32_t flags = parts_.buffers.downloadWalkers(1, slot).front().flags;
         if ((flags & gpu::WALKER_IS_CARRIED) == 0) return glm::vec2(0.0f);
         const float seconds = parts_.parameters.step_seconds;
         const glm::vec2 way = belts[flags >> gpu::WALKER_CHART_AT & gpu::NO_CHART].velocity * seconds;

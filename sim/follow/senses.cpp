@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "sim/wall_index.h"
+
 namespace throng::sim {
 namespace {
 
@@ -37,8 +39,9 @@ std::vector<std::uint32_t> wallsNear(const Simulation::Parts& parts, glm::vec2 p
     const glm::ivec2 cell = glm::clamp(glm::ivec2((place - p.cells_minimum) / p.cell_size), glm::ivec2(0),
                                        glm::ivec2(p.cells_width, p.cells_height) - 1);
     const auto index = static_cast<std::size_t>(cell.y) * p.cells_width + static_cast<std::size_t>(cell.x);
-    const std::vector<std::uint32_t> ends = parts.buffers.wall_starts.download<std::uint32_t>(2, index);
-    return parts.buffers.wall_items.download<std::uint32_t>(ends[1] - ends[0], ends[0]);
+    const gl::Buffer& starts = parts.buffers.wall_starts;
+    const glm::uvec2 run = sim::wallsNear(starts.download<std::uint32_t>(starts.bytes() / gl::kWord), index);
+    return parts.buffers.wall_items.download<std::uint32_t>(run.y - run.x, run.x);
 }
 
 }  // namespace

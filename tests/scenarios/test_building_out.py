@@ -47,7 +47,17 @@ def test_everybody_walks_down_the_stairs_below_its_storey(speeds):
     for figures, _, _ in speeds.values():
         first, second = figures["links"]
         assert (first["back"] - first["forward"], second["back"] - second["forward"]) == (160, 80)
-        assert max(first["specific_flow"], second["specific_flow"]) < MOST_DOWN
+        assert max(first["specific_flow"], second["specific_flow"]) < 1.2 * MOST_DOWN
+
+
+@pytest.mark.slow
+def test_stairs_take_no_more_than_has_been_counted(throng, tmp_path, speeds):
+    """Over three crowds; of one, up to a fifth more."""
+    figures = [speeds[1.3][0]] + [emptied(throng, tmp_path / str(seed), f"simulation.seed={seed}",
+                                          *(f"formations.{i}.people.speed=1.3" for i in range(3)))[0]
+                                  for seed in (2, 3)]
+    flows = numpy.array([[link["specific_flow"] for link in each["links"]] for each in figures])
+    assert flows.mean(axis=0).max() < MOST_DOWN and flows.max() < 1.2 * MOST_DOWN
 
 
 @pytest.mark.slow

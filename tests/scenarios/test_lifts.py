@@ -169,13 +169,18 @@ def test_routes_take_stairs_unless_the_lift_is_sooner(throng, tmp_path):
     assert shares == {"near": 0.0, "far": 1.0}
 
 
-def test_where_many_wait_others_take_the_stairs(throng, tmp_path):
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_where_many_wait_others_take_the_stairs(throng, tmp_path, seed):
+    """With seed 1, the last who was to come in once found who was already in standing in its way for good."""
     stairs = {"id": "stairs", "from": "ground", "to": "upper", "path": [[-24, -3], [-16, -3]]}
     layout = house(2, [flow("ground", "upper", 40, 40)], 120, [lift(["ground", "upper"]), stairs])
     for level in layout["levels"]:
         level["floor"] = box(-32, -6, 8, 6)
+    layout["simulation"]["seed"] = seed
     folder = bake(throng, tmp_path, layout)
-    climbed = json.loads(throng("measure", folder, "--json").stdout)["links"][0]["forward"]
+    figures = json.loads(throng("measure", folder, "--json").stdout)
+    climbed = figures["links"][0]["forward"]
+    assert figures["arrived"] == 40
     rode = {person for _, person in Ridden(folder).passages(True)}
     assert climbed >= 8 and len(rode) >= 8
 

@@ -28,7 +28,8 @@ def test_people_ride_between_the_street_and_a_deck(throng, tmp_path, name, degre
     given["simulation"].update(duration=200, seed=2)
     baked = Baked(throng, tmp_path, mesh, given)
     assert (baked.figures["arrived"], baked.figures["wall_crossings"]) == (34, 0)
-    assert baked.figures["deepest_overlap_percent"] < 2
+    # Two may wedge each other in the doors for a few frames.
+    assert baked.figures["deepest_overlap_percent"] < 5 and baked.figures["overlapping_percent"] < 0.01
     low = 0.02 * (at[0] - 1)
     [made] = baked.manifest["lifts"]["list"]
     assert [stop["height"] for stop in made["stops"]] == pytest.approx([low, DECK], abs=0.01)

@@ -195,6 +195,13 @@ TEST_F(DecisionsTest, RunnersWhoseListsWereMadeFarApartDoNotEndUpInEachOther) {
     }
 }
 
+/// As shaders/shared/touch_list.glsl has it.
+std::uint32_t touchSlot(const std::vector<std::uint32_t>& lists, std::uint32_t slot, std::uint32_t nth) {
+    const std::uint32_t two = lists.at(slot * gpu::TOUCH_WORDS + nth / 2);
+    const auto after = static_cast<std::int16_t>(nth % 2 == 0 ? two & 0xffffu : two >> 16);
+    return slot + static_cast<std::uint32_t>(std::int32_t{after});
+}
+
 /// People of all paces who go anywhere, dense enough to touch.
 class TouchListTest : public DecisionsTest, public testing::WithParamInterface<std::uint32_t> {};
 
@@ -214,7 +221,7 @@ TEST_P(TouchListTest, HoldsWhomSomebodyMayMeetBeforeTheNext) {
     // As they were when people looked round.
     const auto rows = buffers.bodies.download<gpu::Body>(people);
     const auto words = buffers.touch_words.download<std::uint32_t>(people);
-    const auto lists = buffers.touch_lists.download<std::uint32_t>(people * gpu::TOUCH_CAPACITY);
+    const auto lists = buffers.touch_lists.download<std::uint32_t>(people * gpu::TOUCH_WORDS);
     std::size_t listed = 0;
     for (std::uint32_t slot = 0; slot < people; ++slot) {
         std::vector<std::uint32_t> expected;
@@ -226,8 +233,9 @@ TEST_P(TouchListTest, HoldsWhomSomebodyMayMeetBeforeTheNext) {
         const std::uint32_t count = words[slot] & gpu::TOUCH_COUNT_MASK;
         ASSERT_EQ(count, expected.size()) << slot;
         if (count > gpu::TOUCH_CAPACITY) continue;
-        const auto first = lists.begin() + slot * gpu::TOUCH_CAPACITY;
-        std::vector<std::uint32_t> found(first, first + count);
+        std::vector<std::uint32_t> found;
+        for (std::uint32_t nth = 0; nth < count; ++nth)
+            found.push_back(touchSlot(lists, slot, nth));
         std::sort(found.begin(), found.end());
         EXPECT_EQ(found, expected) << slot;
         listed += count;
@@ -235,6 +243,49 @@ TEST_P(TouchListTest, HoldsWhomSomebodyMayMeetBeforeTheNext) {
     if (people > 100) {
         EXPECT_GT(listed, people / 2);
     }
+}
+
+TEST_F(DecisionsTest, WhoIsTooManyPlacesAwayForAListIsPushedAllTheSame) {
+    // A crowd seven kilometres wide: in the order of the cells, the next row is 33,000 people away.
+    constexpr int kAcross = 16600, kLines = 6;
+    constexpr float kApart = 0.45f;
+    authoring::Scene scene = emptyScene({-5.0f, -5.0f}, {kApart * kAcross + 5.0f, 8.0f});
+    for (int line = 0; line < kLines; ++line)
+        for (int i = 0; i < kAcross; ++i) {
+            const glm::vec2 place = kApart * glm::vec2(i, line);
+            addPerson(scene, place, place, 0.0f, 0.25f);
+        }
+    scene.settings.proximity = authoring::Proximity::grid;
+    sim::Simulation simulation(scene, library);
+    simulation.step();
+    sim::Buffers& buffers = simulation.parts().buffers;
+    const auto people = static_cast<std::uint32_t>(scene.people.size());
+    const auto bodies = buffers.bodies.download<gpu::Body>(people);
+    const auto words = buffers.touch_words.download<std::uint32_t>(people);
+    std::vector<std::uint32_t> slot_of(people);
+    for (std::uint32_t slot = 0; slot < people; ++slot)
+        slot_of[bodies[slot].row] = slot;
+    std::size_t unlisted = 0;
+    for (int line = 1; line + 1 < kLines; ++line)
+        for (int i = 100; i < kAcross; i += 1000) {
+            const auto row = static_cast<std::uint32_t>(line * kAcross + i);
+            const auto away = [&](std::uint32_t other) {
+                return std::abs(std::int64_t{slot_of[row]} - std::int64_t{slot_of[other]});
+            };
+            const bool far = std::max(away(row - kAcross), away(row + kAcross)) > 32768;
+            EXPECT_EQ((words[slot_of[row]] & gpu::TOUCH_UNLISTED) != 0, far) << line << ", " << i;
+            unlisted += far;
+        }
+    EXPECT_GT(unlisted, 10u);
+    for (int step = 0; step < 12; ++step)
+        simulation.step();
+    // Bodies began 5 cm deep in those beside, before and behind them: the outermost lines have given way.
+    const States now = buffers.states.download<gpu::AgentState>(people);
+    for (int line = 0; line + 1 < kLines; ++line)
+        for (int i = 100; i < kAcross; i += 1000) {
+            const auto row = static_cast<std::size_t>(line * kAcross + i);
+            EXPECT_GT(now[row + kAcross].position.y - now[row].position.y, 0.47f) << line << ", " << i;
+        }
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, TouchListTest, testing::Values(1u, 63u, 1234u));

@@ -93,5 +93,36 @@ TEST_P(LiftsTest, CountsAsPlainCppDoesAndGivesEverybodyASpotOfItsOwn) {
 INSTANTIATE_TEST_SUITE_P(Sizes, LiftsTest, ::testing::Values(1u, 63u, 1234u),
                          [](const auto& each) { return std::to_string(each.param); });
 
+TEST_P(LiftsTest, WhoIsNotInByTheTimeThatItGivesUpStepsBackAndDoorsClose) {
+    const authoring::Scene scene = house(GetParam());
+    sim::Simulation simulation(scene, library);
+    sim::Buffers& buffers = simulation.parts().buffers;
+    const auto lift = [&] { return buffers.lift_states.download<gpu::LiftState>(1).front(); };
+    const auto wishes = [&] { return buffers.lift_wishes.download<gpu::LiftWishes>(1).front(); };
+    const auto asked = [&] {
+        const auto riders = buffers.riders.download<std::uint32_t>(GetParam());
+        return std::ranges::count(riders, gpu::RIDER_BOARDS, phaseOf);
+    };
+    int step = 0;
+    while (step < 2160 && (lift().phase != gpu::LIFT_IS_OPEN || wishes().in_doors == 0)) {
+        simulation.step();
+        ++step;
+    }
+    ASSERT_LT(step, 2160) << "somebody comes to its doors";
+    const std::uint32_t aboard = wishes().aboard;
+    std::vector<gpu::LiftState> impatient = {lift()};
+    impatient[0].idle = 13.0f;
+    buffers.lift_states.upload(impatient);
+    for (int more = 0; more < 240 && lift().phase == gpu::LIFT_IS_OPEN; ++more) {
+        simulation.step();
+        if (more > 8) {
+            ASSERT_EQ(asked(), 0) << more;
+        }
+    }
+    EXPECT_EQ(lift().phase, gpu::LIFT_CLOSES);
+    EXPECT_LE(wishes().aboard, aboard) << "who stood between the doors has stepped back";
+    EXPECT_EQ(wishes().in_doors, 0u);
+}
+
 }  // namespace
 }  // namespace throng::test

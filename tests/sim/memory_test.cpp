@@ -42,14 +42,14 @@ TEST_F(MemoryTest, OfExamplesIsTold) {
     }
 }
 
-TEST_F(MemoryTest, GrowsByLittleMoreThanNineHundredBytesAPerson) {
+TEST_F(MemoryTest, GrowsByFourFifthsOfAKibibyteAPerson) {
     const auto people = [](std::uint32_t count) {
         const sim::MemoryNeeded needed = sim::memoryNeeded(uniformScene(count, 2.0f, 1));
         return static_cast<double>(needed.all());
     };
     const double a_person = (people(65536) - people(16384)) / (65536.0 - 16384.0);
     std::printf("    %.0f bytes a person\n", a_person);
-    EXPECT_LT(a_person, 950.0);
+    EXPECT_LT(a_person, 0.8 * 1024.0);
     EXPECT_GT(a_person, 100.0);
 }
 

@@ -212,9 +212,8 @@ std::map<std::string, Layout> layoutsInCpp() {
         using T = gpu::Walker;
         result["Walker"] = {
             sizeof(T),
-            {MEMBER(preferred_speed), MEMBER(headway), MEMBER(flags), MEMBER(party_first), MEMBER(party_size),
-             MEMBER(change_count), MEMBER(status), MEMBER(stage), MEMBER(stage_end), MEMBER(leave_step),
-             MEMBER(ticket), MEMBER(nervousness), MEMBER(way_through)}};
+            {MEMBER(preferred_speed), MEMBER(flags), MEMBER(status), MEMBER(stage), MEMBER(stage_end),
+             MEMBER(leave_step), MEMBER(nervousness), MEMBER(way_through)}};
     }
     {
         using T = gpu::Chest;

@@ -158,7 +158,8 @@ TEST_F(StepTableTest, CountsBytesPerPersonAndLaunches) {
     const std::size_t word = sizeof(std::uint32_t);
     EXPECT_EQ(gather.bytesReadPerPerson(), sizeof(gpu::Person) + sizeof(gpu::AgentState) + 2 * word);
     EXPECT_EQ(gather.bytesWrittenPerPerson(),
-              sizeof(gpu::Body) + sizeof(gpu::Walker) + sizeof(gpu::DiagramSite) + word);
+              sizeof(gpu::Body) + simulation.parts().buffers.walkers.contents()->element_bytes +
+                  sizeof(gpu::DiagramSite) + word);
     std::map<std::string, double> launches;
     for (const sim::StepRow& row : pass("contacts").rows)
         launches[row.what] += row.launches;

@@ -146,7 +146,8 @@ TEST_F(WaitsTest, FramesComeWithoutAnybodyWaitingForThem) {
         pump.finish();
     }
     sim::FramePump pump(simulation, {}, [&](const Frame&) { ++received; });
-    constexpr std::uint32_t kAtOnce = sim::kFramesUnderWay, kMore = 24;
+    const std::uint32_t kAtOnce = sim::framesUnderWay(simulation.parameters().row_count);
+    constexpr std::uint32_t kMore = 24;
     {
         const Trace trace;
         submit(pump, 0, kAtOnce);

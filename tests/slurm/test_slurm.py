@@ -122,7 +122,8 @@ def test_killed_jobs_and_a_drained_node_leave_a_complete_batch(throng, slurm, tm
     for target in (20, 60):
         wait_for(lambda: done() >= target or process.poll() is not None, 120, "results")
         wait_for(lambda: tasks_at_work(output) or process.poll() is not None, 60, "a task")
-        for task in tasks_at_work(output)[:2]:
+        # One of those that are all but done may leave nothing to do again: some more are killed.
+        for task in tasks_at_work(output)[:4]:
             os.kill(task, signal.SIGKILL)
             kills += 1
     assert kills >= 2 and process.poll() is None
