@@ -90,8 +90,9 @@ def memory(passes):
     together = sum(size for _, (size, _) in buffers)
     return ("## What a person takes\n\nBuffers with an element for each person (where all are discs), "
             f"{together} bytes together. Besides, a person has 48 bytes\nfor each stage of its way, 36 for each of the "
-            "three frames that are on their way to the disk, and its part of the\nground: 8 bytes a cell, 4 to 16 a "
-            "pixel of the diagram. `throng check` tells what a layout takes in all.\n\n"
+            "frames that are on their way to the disk\n(three, or two of 16,384 people and more), and its part of the "
+            "ground: 8 bytes a cell, 4 to 16 a pixel of the diagram.\n`throng check` tells what a layout takes in "
+            "all.\n\n"
             + "\n".join(lines) + "\n")
 
 
