@@ -18,6 +18,7 @@ struct PreviewOptions {
     std::string output;
     bool video = false;
     bool json = false;
+    std::optional<int> width;
     analysis::PreviewOptions preview;
     std::optional<std::uint32_t> frame;
 };
@@ -45,6 +46,7 @@ void runPreview(const PreviewOptions& options) {
                                                        : "preview.png";
     analysis::PreviewOptions preview = options.preview;
     preview.frame = options.frame;
+    if (options.width) preview.width = *options.width;
     if (!isFilm(output, options.video)) {
         const std::uint32_t frame = analysis::drawPreview(bake, output, preview);
         if (options.json)
@@ -54,6 +56,8 @@ void runPreview(const PreviewOptions& options) {
         return;
     }
     const bool terminal = isatty(STDERR_FILENO);
+    constexpr int kFilmHeight = 1080;  // px
+    if (!options.width) preview.height = kFilmHeight;
     analysis::writePreviewVideo(bake, output, preview, [&](double share) {
         if (terminal) fmt::print(stderr, "\r{:3.0f} %\x1b[K", 100.0 * share);
     });
@@ -76,9 +80,11 @@ void addPreview(CLI::App& app) {
     command->add_flag("--mp4", options->video, "Make a film of all frames (needs ffmpeg)");
     command->add_option("--frame", options->frame,
                         "The frame to draw, from 0; by default the one with most people");
-    command->add_option("--width", options->preview.width, "Width in pixels")
-        ->check(CLI::Range(200, 8000))
-        ->capture_default_str();
+    command
+        ->add_option("--width", options->width,
+                     "Width in pixels; by default 1400, and of films less where they would be higher than "
+                     "1080")
+        ->check(CLI::Range(200, 8000));
     command
         ->add_option("--trails", options->preview.trail_seconds,
                      "Length of the trails in seconds, 0 for none")

@@ -110,7 +110,7 @@ Plate::Plate(const std::filesystem::path& bake, const PreviewOptions& options)
     const glm::dvec2 extent = bake_.maximum - bake_.minimum;
     if (bake_.frames == 0) throw InputError(bake, "has no frames: there is nothing to draw");
     chooseLevel();
-    width_ = options.width / 2 * 2;  // video encoders want even sizes
+    width_ = widthFor(extent);
     scale_ = (width_ - 2.0 * kMargin) / std::max(extent.x, 1.0);
     placeLegend();
     const double height =
@@ -127,6 +127,17 @@ Plate::Plate(const std::filesystem::path& bake, const PreviewOptions& options)
             bake, fmt::format("a picture of {} x {} px is more than can be drawn: ask for a smaller --width",
                               width_, height_));
     drawLayout();
+}
+
+int Plate::widthFor(glm::dvec2 extent) const {
+    constexpr double kNarrowest = 640.0;  // px: captions have room
+    double width = options_.width;
+    if (options_.height > 0) {
+        const double room = options_.height - kHeader - kFooter;
+        const double fits = room / std::max(extent.y, 1.0) * std::max(extent.x, 1.0) + 2.0 * kMargin;
+        width = std::min(width, std::max(fits, kNarrowest));
+    }
+    return static_cast<int>(width) / 2 * 2;
 }
 
 /// All groups have their place in the legend, in as many lines as it takes; beside the last one is the scale

@@ -59,6 +59,8 @@ class Plate {
     void drawPeople(const io::CrowdFrame& now) const;
     void drawCaption(cairo_t* context, const io::CrowdFrame& now) const;
     void drawScaleBar(cairo_t* context) const;
+    /// px, even: video encoders want that.
+    int widthFor(glm::dvec2 extent) const;
     void placeLegend();
     PlateView view() const;
     void path(cairo_t* context, const std::vector<glm::dvec2>& points, bool close) const;

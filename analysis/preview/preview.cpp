@@ -44,8 +44,9 @@ class Encoder {
         add({"-f", "rawvideo", "-pix_fmt", "yuv420p", "-s",
              fmt::format("{}x{}", plate.width(), plate.height())});
         add({"-r", fmt::format("{}", plate.fps()), "-i", "-"});
-        add({"-c:v", "libx264", "-preset", "superfast", "-pix_fmt", "yuv420p", "-crf", "22", "-f", "mp4",
-             path.string()});
+        // Looking ahead would make files a fifth smaller and cost as much as a third of the encoding.
+        add({"-c:v", "libx264", "-preset", "superfast", "-x264-params", "rc-lookahead=0:mbtree=0:bframes=0"});
+        add({"-pix_fmt", "yuv420p", "-crf", "22", "-f", "mp4", path.string()});
         try {
             process_.emplace(words, ProcessOptions{.input = StandardStream::pipe});
         } catch (const std::system_error& error) {

@@ -13,9 +13,10 @@ namespace throng::analysis {
 struct PreviewOptions {
     std::optional<std::uint32_t> frame;  ///< from 0; by default the one with most people
     int width = 1400;                    ///< px, [200, 8000]; the height follows from the layout
-    double trail_seconds = 6.0;          ///< s, 0 = no trails
-    bool density = true;                 ///< persons per m^2 as a heat layer
-    std::string level = {};              ///< only what is on this one; empty: all levels over each other
+    int height = 0;  ///< px, about: layouts that would be higher are drawn narrower; 0: all are as wide
+    double trail_seconds = 6.0;  ///< s, 0 = no trails
+    bool density = true;         ///< persons per m^2 as a heat layer
+    std::string level = {};      ///< only what is on this one; empty: all levels over each other
 };
 
 /// Draws one frame into a PNG. @throws InputError (the bake), OutputError (the picture)
