@@ -70,8 +70,8 @@ void setOut(inout LiftState lift, LiftPlan plan, LiftWishes wishes) {
 }
 
 /// Of the free spots in the row that is furthest from the doors, the one nearest to a place in the cabin. Where several
-/// come in at once, nobody has to get past anybody. In the row at the doors, the middle stays free the longest: the last
-/// ones have to get by who stands there already.
+/// come in at once, nobody has to get past anybody. In the row at the doors, the middle is taken last: the last ones
+/// have to get by who stands there already.
 uint freeSpot(LiftState lift, LiftPlan plan, uint taken, vec2 home) {
     LiftStop stop = lift_stops[plan.first_stop + lift.stop];
     bool backwards = dot(stop.along, lift_stops[plan.first_stop].along) < 0.0;
