@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 #include <map>
 #include <stdexcept>
@@ -28,6 +29,13 @@ float fastest(const authoring::Scene& scene) {
     float speed = 0.0f;
     for (const gpu::Person& person : scene.people)
         speed = std::max(speed, person.maximum_speed);
+    return speed;
+}
+
+float beltSpeed(const authoring::Scene& scene) {
+    float speed = 0.0f;
+    for (const gpu::Belt& belt : scene.chart_map.belts)
+        speed = std::max(speed, glm::length(belt.velocity));
     return speed;
 }
 
@@ -180,6 +188,11 @@ gpu::Parameters makeParameters(const authoring::Scene& scene) {
     // Both may walk, and both may be pushed.
     const float pushed = std::max(kPushedAt * parameters.decision_seconds, kLeastPush);
     parameters.contact_slack = 2.0f * (fastest(scene) * parameters.decision_seconds + pushed);
+    parameters.contact_push = pushed + beltSpeed(scene) * parameters.decision_seconds;
+    // Whose ways are given may set out as fast as they like.
+    parameters.contact_gain =
+        scene.given.empty() ? static_cast<float>(settings.maximum_acceleration) * parameters.decision_seconds
+                            : fastest(scene);
     parameters.contact_range = std::max(static_cast<float>(settings.contact_range),
                                         2.0f * scene.largest_radius + parameters.contact_slack);
     parameters.cells_minimum = scene.minimum;

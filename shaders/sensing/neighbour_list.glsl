@@ -48,6 +48,12 @@ void keepNearest(float distance_squared, uint key) {
     }
 }
 
+/// m: how far somebody may have come before the next decision.
+float mayMove(Body body) {
+    float speed = min(body.maximum_speed, length(body.velocity) + parameters.contact_gain);
+    return speed * parameters.decision_seconds + parameters.contact_push;
+}
+
 /// Everybody within the contact range, exactly. Those who may touch before the next decision are listed for the contact
 /// pass.
 /// @returns the touch word
@@ -56,7 +62,7 @@ uint feelContacts(Body self, uint self_slot) {
     uint cell_number = cellIndex(cell);
     uint touching = 0u, two = 0u;
     bool unlisted = false;
-    float reach = self.radius + parameters.contact_slack;
+    float reach = self.radius + mayMove(self);
     float range_squared = parameters.contact_range * parameters.contact_range;
     for (int y = cell.y - 1; y <= cell.y + 1; ++y) {
         uvec2 run = slotRun(cell.x, y);
@@ -65,7 +71,7 @@ uint feelContacts(Body self, uint self_slot) {
             float distance_squared = dot(offset, offset);
             if (distance_squared > range_squared || slot == self_slot) continue;
             keepNearest(distance_squared, slot);
-            float touch_distance = reach + bodies[slot].radius;
+            float touch_distance = reach + bodies[slot].radius + mayMove(bodies[slot]);
             if (distance_squared > touch_distance * touch_distance) continue;
             int after = int(slot - self_slot);
             unlisted = unlisted || after != bitfieldExtract(after, 0, 16);

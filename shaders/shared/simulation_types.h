@@ -231,7 +231,9 @@ struct Parameters {
     float wall_time_horizon;  // s
     float contact_range;      // m
     float contact_slack;      // m: two people further apart than their radii and this cannot touch before the
-                              // next decision
+                              // next decision, however fast they are
+    float contact_gain;       // m/s: how much faster somebody may be by then than it is
+    float contact_push;       // m: how far at most others may have moved it by then
     float maximum_acceleration;  // m/s^2
     uint site_rows;              // rows of people, and as many for each image that one may have
     float chart_cell;            // m, of the raster of charts, which begins where the fields' grid does

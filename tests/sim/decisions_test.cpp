@@ -202,6 +202,12 @@ std::uint32_t touchSlot(const std::vector<std::uint32_t>& lists, std::uint32_t s
     return slot + static_cast<std::uint32_t>(std::int32_t{after});
 }
 
+/// m: as fast as it may get by the next decision, or as it may be at most, and then pushed.
+float mayMove(const gpu::Body& body, const gpu::Parameters& parameters) {
+    const float speed = std::min(body.maximum_speed, glm::length(body.velocity) + parameters.contact_gain);
+    return speed * parameters.decision_seconds + parameters.contact_push;
+}
+
 /// People of all paces who go anywhere, dense enough to touch.
 class TouchListTest : public DecisionsTest, public testing::WithParamInterface<std::uint32_t> {};
 
@@ -227,7 +233,8 @@ TEST_P(TouchListTest, HoldsWhomSomebodyMayMeetBeforeTheNext) {
         std::vector<std::uint32_t> expected;
         for (std::uint32_t other = 0; other < people; ++other) {
             const float away = glm::distance(rows[slot].position, rows[other].position);
-            const float reach = rows[slot].radius + rows[other].radius + parameters.contact_slack;
+            const float reach = rows[slot].radius + rows[other].radius + mayMove(rows[slot], parameters) +
+                                mayMove(rows[other], parameters);
             if (other != slot && away < std::min(reach, parameters.contact_range)) expected.push_back(other);
         }
         const std::uint32_t count = words[slot] & gpu::TOUCH_COUNT_MASK;
