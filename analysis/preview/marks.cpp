@@ -26,18 +26,6 @@ glm::vec2 leftOf(glm::vec2 way) {
     return {-way.y, way.x};
 }
 
-/// Where along a row of pixels something is: nowhere where the first is above the second.
-using Span = glm::vec2;
-constexpr Span kAnywhere(-1.0e9f, 1.0e9f);
-
-/// Where a strip covers anything of a row, from its middle. @param across the strip, a unit vector
-Span spanOfStrip(glm::vec2 across, float half, float off_y) {
-    const float reach = half + kEdge, rest = off_y * across.y;
-    if (std::abs(across.x) < 1.0e-6f) return std::abs(rest) > reach ? -kAnywhere : kAnywhere;
-    const float one = (-reach - rest) / across.x, other = (reach - rest) / across.x;
-    return {std::min(one, other), std::max(one, other)};
-}
-
 }  // namespace
 
 Marks::Marks(cairo_surface_t* surface)
@@ -64,22 +52,13 @@ void Marks::use(Colour colour, double alpha) {
 /// @param cover tells how much of the pixel with this middle is the mark's, 0 to 1
 template <class Cover>
 void Marks::paint(glm::vec2 lower, glm::vec2 upper, const Cover& cover) {
-    paint(lower, upper, cover, [](float) { return kAnywhere; });
-}
-
-/// @param span tells, of the middle of a row, where in it pixels' middles are that the mark may cover
-template <class Cover, class SpanOf>
-void Marks::paint(glm::vec2 lower, glm::vec2 upper, const Cover& cover, const SpanOf& span) {
     // Limits first: places far outside are no whole numbers of pixels.
     const glm::vec2 most(static_cast<float>(width_), static_cast<float>(height_));
     const glm::ivec2 first(glm::floor(glm::clamp(lower - kEdge, glm::vec2(0.0f), most)));
     const glm::ivec2 last(glm::ceil(glm::clamp(upper + kEdge, glm::vec2(0.0f), most)));
     for (int y = first.y; y < last.y; ++y) {
         auto* row = reinterpret_cast<std::uint32_t*>(pixels_ + std::ptrdiff_t{y} * stride_);
-        const Span within = span(static_cast<float>(y) + 0.5f) - 0.5f;
-        const int from = static_cast<int>(std::ceil(std::max(within.x, static_cast<float>(first.x))));
-        const int end = static_cast<int>(std::floor(std::min(within.y, static_cast<float>(last.x - 1)))) + 1;
-        for (int x = from; x < end; ++x) {
+        for (int x = first.x; x < last.x; ++x) {
             const float covered =
                 cover(glm::vec2(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
             const auto weight = static_cast<std::int32_t>(weight_ * covered);
@@ -101,18 +80,11 @@ void Marks::line(glm::vec2 from, glm::vec2 to, float width) {
     const glm::vec2 along = (to - from) / length, across = leftOf(along), middle = 0.5f * (from + to);
     const float half_length = 0.5f * length, half_width = 0.5f * width;
     const glm::vec2 reach = half_length * glm::abs(along) + half_width * glm::abs(across);
-    paint(
-        middle - reach, middle + reach,
-        [=](glm::vec2 at) {
-            const glm::vec2 off = at - middle;
-            return coverOfStrip(half_width, glm::dot(off, across)) *
-                   coverOfStrip(half_length, glm::dot(off, along));
-        },
-        [=](float y) {
-            const Span beside = spanOfStrip(across, half_width, y - middle.y);
-            const Span before = spanOfStrip(along, half_length, y - middle.y);
-            return middle.x + Span(std::max(beside.x, before.x), std::min(beside.y, before.y));
-        });
+    paint(middle - reach, middle + reach, [=](glm::vec2 at) {
+        const glm::vec2 off = at - middle;
+        return coverOfStrip(half_width, glm::dot(off, across)) *
+               coverOfStrip(half_length, glm::dot(off, along));
+    });
 }
 
 void Marks::disc(glm::vec2 middle, float radius) {

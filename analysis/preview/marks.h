@@ -33,8 +33,6 @@ class Marks {
   private:
     template <class Cover>
     void paint(glm::vec2 lower, glm::vec2 upper, const Cover& cover);
-    template <class Cover, class SpanOf>
-    void paint(glm::vec2 lower, glm::vec2 upper, const Cover& cover, const SpanOf& span);
 
     cairo_surface_t* surface_;
     std::uint8_t* pixels_;
