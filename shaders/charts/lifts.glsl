@@ -40,13 +40,12 @@ float roomInDoors(LiftPlan plan, float radius) { return max(plan.half_door - rad
 /// People walk through doors that are open so far.
 bool doorsAreOpen(LiftState lift) { return lift.phase == LIFT_IS_OPEN; }
 
-const float LIFT_GIVES_UP = 12.0;        // s: doors close on those who do not come in or get off
 const float LIFT_BETWEEN_DOORS = 0.25;  // m before and behind them: doors do not close on anybody
 
-/// Nobody has got in or off for so long that whoever is not in yet has to wait for the next.
-bool givesUp(LiftState lift) { return doorsAreOpen(lift) && lift.idle >= LIFT_GIVES_UP; }
+/// Whoever is not past the doors yet has to wait for the next ride.
+bool hasGivenUp(LiftState lift) { return doorsAreOpen(lift) && lift.given_up != 0u; }
 
 /// Somebody who rides has not got past the doors by then, and gets out again.
 bool stepsBack(LiftState lift, LiftStop stop, vec2 home) {
-    return givesUp(lift) && throughDoors(stop, home).x < LIFT_BETWEEN_DOORS;
+    return hasGivenUp(lift) && throughDoors(stop, home).x < LIFT_BETWEEN_DOORS;
 }

@@ -84,7 +84,7 @@ bool comesIn(uint rider) {
     uint phase = rider & RIDER_PHASE;
     if (phase != RIDER_BOARDS && phase != RIDER_RIDES) return false;
     LiftState lift = lift_states[liftOf(rider)];
-    return doorsAreOpen(lift) && !givesUp(lift) && (phase == RIDER_BOARDS || goalOf(rider) != lift.stop);
+    return doorsAreOpen(lift) && !hasGivenUp(lift) && (phase == RIDER_BOARDS || goalOf(rider) != lift.stop);
 }
 
 /// On a floor: what it has to do with the lifts there.
@@ -93,7 +93,10 @@ uint waitsOn(uint rider, uint chart, vec2 position, Stage stage) {
     if (comesIn(rider)) return riderFor(RIDER_BOARDS, liftOf(rider), waitsAt(rider), goalOf(rider), NO_SPOT);
     for (uint i = 0u; i < LIFT_STOPS; ++i) {
         LiftStop stop = lift_stops[i];
-        if (stop.landing != chart || distance(home, stop.begin) > SEES || throughDoors(stop, home).x > 0.0) continue;
+        // Floors may reach a little way in: who steps back goes on from there.
+        bool has_to_do = (rider & RIDER_PHASE) != RIDER_NONE && liftOf(rider) == stop.lift;
+        float most = has_to_do ? LIFT_BETWEEN_DOORS : 0.0;
+        if (stop.landing != chart || distance(home, stop.begin) > SEES || throughDoors(stop, home).x > most) continue;
         LiftPlan plan = lift_plans[stop.lift];
         uint here = i - plan.first_stop;
         bool waits = (rider & RIDER_PHASE) != RIDER_NONE && (rider & RIDER_PHASE) != RIDER_RIDES &&

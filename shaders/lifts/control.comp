@@ -15,7 +15,9 @@ layout(std430) buffer Riders { uint riders[]; };
 layout(std430) readonly buffer States { AgentState states[]; };
 layout(std430) readonly buffer ChartShifts { vec2 chart_shifts[]; };  // m, by chart
 
+const float NEARNESS = 0.01;      // of spots that are as far from the middle, the nearest
 const uint MOST_AT_ONCE = 3u;     // who have been asked in and are not in yet
+const float GIVES_UP = 12.0;      // s: doors close on those who do not come in or get off
 const float CLOSES_FULL = 1.0;    // s
 
 uint stopsBeyond(uint stop, int way) { return way > 0 ? ~0u << (stop + 1u) : (1u << stop) - 1u; }
@@ -44,6 +46,7 @@ void enter(inout LiftState lift, uint phase) {
     lift.phase = phase;
     lift.since = 0.0;
     lift.idle = 0.0;
+    lift.given_up = 0u;
 }
 
 void openDoors(inout LiftState lift, LiftPlan plan) {
@@ -83,7 +86,8 @@ uint freeSpot(LiftState lift, LiftPlan plan, uint taken, vec2 home) {
         if ((taken >> spot & 1u) != 0u) continue;
         if (best != NO_SPOT && at_row != best_row) break;
         vec2 place = spotPlace(plan, spot);
-        float away = at_row == row_at_doors ? -abs(throughDoors(stop, place).y) : distance(home, place);
+        float away = distance(home, place);
+        if (at_row == row_at_doors) away = NEARNESS * away - abs(throughDoors(stop, place).y);
         if (away >= least) continue;
         least = away;
         best = spot;
@@ -116,11 +120,13 @@ void giveSpot(LiftState lift, LiftPlan plan, LiftWishes wishes) {
 void serve(inout LiftState lift, LiftPlan plan, LiftWishes wishes) {
     giveSpot(lift, plan, wishes);
     bool full = wishes.aboard + wishes.boarding >= plan.capacity;
-    if ((!givesUp(lift) && askIn(lift, plan, wishes)) || wishes.aboard != lift.aboard) lift.idle = 0.0;
+    if ((!hasGivenUp(lift) && askIn(lift, plan, wishes)) || wishes.aboard != lift.aboard) lift.idle = 0.0;
     lift.aboard = wishes.aboard;
+    if (wishes.in_doors > 0u && lift.idle >= GIVES_UP) lift.given_up = 1u;
     bool is_waited_for = wishes.leaving > 0u || wishes.boarding > 0u || wishes.in_doors > 0u;
-    float patience = is_waited_for ? LIFT_GIVES_UP : full ? min(CLOSES_FULL, plan.dwell) : plan.dwell;
-    if (lift.idle >= patience && wishes.in_doors == 0u) enter(lift, LIFT_CLOSES);
+    float patience = is_waited_for ? GIVES_UP : full ? min(CLOSES_FULL, plan.dwell) : plan.dwell;
+    bool closes = lift.idle >= patience || hasGivenUp(lift);
+    if (closes && wishes.in_doors == 0u) enter(lift, LIFT_CLOSES);
 }
 
 void stepDoors(inout LiftState lift, LiftPlan plan, LiftWishes wishes) {

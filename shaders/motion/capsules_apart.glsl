@@ -3,8 +3,8 @@
 // push there moves them and turns them, each by what its mass and its moment of inertia make of it (position-based
 // dynamics of rigid bodies: Mueller, Macklin, Chentanez, Jeschke and Kim 2020).
 //
-// Touch lists hold all whom a disc round the body may meet until the next decision, at the pace of the fastest: in a
-// crush twelve to eighteen, of whom few are near enough for the pushes of one step. The first round, which looks at all
+// Touch lists hold all whom a disc round the body may meet until the next decision, as fast as both may be: in a crush
+// twelve to eighteen, of whom few are near enough for the pushes of one step. The first round, which looks at all
 // of them anyway, notes those (and whether a wall is near) for the rounds that follow.
 //
 // Loops are such that they run once for each who is near, and never once more: where invocations run in step, whoever

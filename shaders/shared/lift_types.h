@@ -55,7 +55,7 @@ struct LiftState {
     float from;    // m: where it set out from
     int heading;   // 1 up, -1 down, 0 neither
     uint aboard;
-    uint reserved;
+    uint given_up;  // 1: until its doors have closed, nobody is asked in, and who is between them steps back
 };
 
 /// What people want of a lift, counted anew before it decides; bits are stops.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <optional>
 
 #include "sim/simulation_parts.h"
 #include "tests/sim/gpu_test.h"
@@ -93,35 +94,92 @@ TEST_P(LiftsTest, CountsAsPlainCppDoesAndGivesEverybodyASpotOfItsOwn) {
 INSTANTIATE_TEST_SUITE_P(Sizes, LiftsTest, ::testing::Values(1u, 63u, 1234u),
                          [](const auto& each) { return std::to_string(each.param); });
 
-TEST_P(LiftsTest, WhoIsNotInByTheTimeThatItGivesUpStepsBackAndDoorsClose) {
-    const authoring::Scene scene = house(GetParam());
-    sim::Simulation simulation(scene, library);
-    sim::Buffers& buffers = simulation.parts().buffers;
-    const auto lift = [&] { return buffers.lift_states.download<gpu::LiftState>(1).front(); };
-    const auto wishes = [&] { return buffers.lift_wishes.download<gpu::LiftWishes>(1).front(); };
-    const auto asked = [&] {
-        const auto riders = buffers.riders.download<std::uint32_t>(GetParam());
-        return std::ranges::count(riders, gpu::RIDER_BOARDS, phaseOf);
-    };
-    int step = 0;
-    while (step < 2160 && (lift().phase != gpu::LIFT_IS_OPEN || wishes().in_doors == 0)) {
-        simulation.step();
-        ++step;
+/// A crowd before a lift, and what somebody does who stands between its doors for too long.
+class LiftDoorsTest : public GpuTest {
+  protected:
+    static constexpr std::uint32_t kPeople = 63;
+
+    void SetUp() override {
+        GpuTest::SetUp();
+        simulation_.emplace(scene, library);
     }
-    ASSERT_LT(step, 2160) << "somebody comes to its doors";
-    const std::uint32_t aboard = wishes().aboard;
-    std::vector<gpu::LiftState> impatient = {lift()};
-    impatient[0].idle = 13.0f;
-    buffers.lift_states.upload(impatient);
-    for (int more = 0; more < 240 && lift().phase == gpu::LIFT_IS_OPEN; ++more) {
-        simulation.step();
-        if (more > 8) {
-            ASSERT_EQ(asked(), 0) << more;
+
+    /// Its doors stay open for half a minute.
+    static authoring::Scene patientHouse() {
+        authoring::Scene scene = house(kPeople);
+        scene.chart_map.lifts.plans.front().dwell = 30.0f;
+        return scene;
+    }
+
+    gpu::LiftState lift() { return buffers().lift_states.download<gpu::LiftState>(1).front(); }
+    gpu::LiftWishes wishes() { return buffers().lift_wishes.download<gpu::LiftWishes>(1).front(); }
+    std::vector<std::uint32_t> riders() { return buffers().riders.download<std::uint32_t>(kPeople); }
+    sim::Buffers& buffers() { return simulation_->parts().buffers; }
+
+    /// Steps until its doors are open and that is so.
+    template <class Condition>
+    void untilOpenAnd(Condition is_so) {
+        int step = 0;
+        while (step++ < 2160 && (lift().phase != gpu::LIFT_IS_OPEN || !is_so()))
+            simulation_->step();
+        ASSERT_LT(step, 2160);
+    }
+    /// As if nobody had come or gone for so long.
+    void haveWaited(float seconds) {
+        std::vector<gpu::LiftState> now = {lift()};
+        now[0].idle = seconds;
+        buffers().lift_states.upload(now);
+    }
+    /// @returns whether anybody was asked in meanwhile
+    bool stepsUntilDoorsClose() {
+        bool asked = false;
+        for (int step = 0; step < 240 && lift().phase == gpu::LIFT_IS_OPEN; ++step) {
+            simulation_->step();
+            if (step > 8) asked = asked || std::ranges::count(riders(), gpu::RIDER_BOARDS, phaseOf) > 0;
         }
+        return asked;
     }
+
+    authoring::Scene scene = patientHouse();
+    std::optional<sim::Simulation> simulation_;
+};
+
+TEST_F(LiftDoorsTest, WhoIsBeforeThemIsNotAskedInAgainBeforeTheyHaveClosed) {
+    untilOpenAnd([&] { return wishes().in_doors > 0; });
+    haveWaited(13.0f);
+    EXPECT_FALSE(stepsUntilDoorsClose());
     EXPECT_EQ(lift().phase, gpu::LIFT_CLOSES);
-    EXPECT_LE(wishes().aboard, aboard) << "who stood between the doors has stepped back";
     EXPECT_EQ(wishes().in_doors, 0u);
+}
+
+TEST_F(LiftDoorsTest, WhoIsJustBehindThemGetsOutAgain) {
+    untilOpenAnd([&] { return std::popcount(wishes().spots) >= 2; });
+    const std::vector<std::uint32_t> before = riders();
+    std::uint32_t row = 0;
+    while (phaseOf(before[row]) != gpu::RIDER_RIDES || spotOf(before[row]) == gpu::NO_SPOT)
+        ++row;
+    const auto stop = buffers().lift_stops.download<gpu::LiftStop>(1).front();  // all begin on the ground
+    const auto shifts = buffers().chart_shifts.download<glm::vec2>(stop.chart + 1);
+    auto states = buffers().states.download<gpu::AgentState>(kPeople);
+    states[row].position = stop.begin + 0.15f * stop.along + shifts[stop.chart];
+    states[row].velocity = {0.0f, 0.0f};
+    buffers().states.upload(states);
+    haveWaited(13.0f);
+    EXPECT_FALSE(stepsUntilDoorsClose());
+    EXPECT_EQ(lift().phase, gpu::LIFT_CLOSES);
+    EXPECT_EQ(phaseOf(riders()[row]), gpu::RIDER_WAITS);
+}
+
+TEST_F(LiftDoorsTest, ThatStayOpenForLongLetInWhoComesLate) {
+    // Nobody is between them: they have given up on nobody.
+    untilOpenAnd([&] { return wishes().aboard > 0 && wishes().in_doors == 0 && wishes().first != 0; });
+    haveWaited(20.0f);
+    bool asked = false;
+    for (int step = 0; step < 12; ++step) {
+        simulation_->step();
+        asked = asked || std::ranges::count(riders(), gpu::RIDER_BOARDS, phaseOf) > 0;
+    }
+    EXPECT_TRUE(asked);
 }
 
 }  // namespace

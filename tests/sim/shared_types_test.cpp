@@ -263,7 +263,7 @@ std::map<std::string, Layout> layoutsInCpp() {
         result["LiftState"] = {
             sizeof(T),
             {MEMBER(height), MEMBER(open), MEMBER(stop), MEMBER(phase), MEMBER(since), MEMBER(idle),
-             MEMBER(from), MEMBER(heading), MEMBER(aboard), MEMBER(reserved)}};
+             MEMBER(from), MEMBER(heading), MEMBER(aboard), MEMBER(given_up)}};
     }
     {
         using T = gpu::LiftWishes;

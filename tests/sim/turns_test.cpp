@@ -11,6 +11,35 @@
 namespace throng::test {
 namespace {
 
+TEST(MarkedStarts, TellTheWallsOfEveryCellAsPlainStartsDo) {
+    std::mt19937 engine(5);
+    for (const std::uint32_t width : {1u, 63u, 1'234u})
+        for (const int walls : {0, 1, 40}) {
+            gpu::Parameters cells{};
+            cells.cell_size = 1.0f;
+            cells.cells_width = width;
+            cells.cells_height = 3;
+            std::uniform_real_distribution<float> x(0.0f, static_cast<float>(width)), y(0.0f, 3.0f);
+            std::vector<gpu::WallSegment> segments(static_cast<std::size_t>(walls));
+            for (gpu::WallSegment& wall : segments) {
+                wall.a = {x(engine), y(engine)};
+                wall.b = wall.a + glm::vec2(0.5f, 0.2f);
+            }
+            if (walls > 0) segments.front().a = segments.front().b = {static_cast<float>(width), 3.0f};
+            const sim::WallIndex index = sim::indexWalls(segments, cells, 0.3f);
+            const std::vector<std::uint32_t> starts = sim::startsOfMarked(index);
+            for (std::size_t cell = 0; cell < std::size_t{width} * 3; ++cell) {
+                const glm::uvec2 run = sim::wallsNear(starts, cell);
+                const std::vector<std::uint32_t> found(index.items.begin() + run.x,
+                                                       index.items.begin() + run.y);
+                const std::vector<std::uint32_t> expected(index.items.begin() + index.starts[cell],
+                                                          index.items.begin() + index.starts[cell + 1]);
+                ASSERT_EQ(found, expected) << width << " cells across, " << walls << " walls, cell " << cell;
+            }
+            EXPECT_LE(starts.size(), 2 * ((std::size_t{width} * 3 + 31) / 32) + index.items.size() + 1);
+        }
+}
+
 TEST(MarkCells, ListsEveryCellWithinReachOfAPlaceAndFewOthers) {
     std::mt19937 engine(3);
     for (const std::uint32_t width : {1u, 63u, 1'234u}) {
