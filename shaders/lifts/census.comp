@@ -99,8 +99,7 @@ uint waitsOn(uint rider, uint chart, vec2 position, Stage stage) {
         if (stop.landing != chart || distance(home, stop.begin) > SEES || throughDoors(stop, home).x > most) continue;
         LiftPlan plan = lift_plans[stop.lift];
         uint here = i - plan.first_stop;
-        bool waits = (rider & RIDER_PHASE) != RIDER_NONE && (rider & RIDER_PHASE) != RIDER_RIDES &&
-                     liftOf(rider) == stop.lift && waitsAt(rider) == here;
+        bool waits = has_to_do && (rider & RIDER_PHASE) != RIDER_RIDES && waitsAt(rider) == here;
         if (!leadsToDoors(stop, stage, position, waits)) continue;
         uint goal = waits ? goalOf(rider) : stopToGetOff(plan, here, stage);
         if (goal != NO_INDEX) return riderFor(RIDER_WAITS, stop.lift, here, goal, NO_SPOT);

@@ -6,6 +6,8 @@
 // press on it for as long as they wait. Those who come stop beside the line, not in it: between two who stand there
 // already, whoever moves up would find its own place taken, and wedge itself in.
 
+#include "shaders/shared/walls.glsl"
+
 /// A place in a line, and how near to it will do, m.
 struct PlaceInLine {
     vec2 point;
@@ -30,9 +32,8 @@ PlaceInLine placeInLine(WaitingLine line, uint nth) {
 vec2 nearestOf(WaitingLine line, vec2 point) {
     vec2 nearest = line_points[line.first_point];
     for (uint i = line.first_point; i + 1u < line.first_point + line.point_count; ++i) {
-        vec2 along = line_points[i + 1u] - line_points[i];
-        float share = dot(point - line_points[i], along) / max(dot(along, along), 1.0e-6);
-        vec2 there = line_points[i] + clamp(share, 0.0, 1.0) * along;
+        vec2 a = line_points[i], b = line_points[i + 1u];
+        vec2 there = a + alongSegment(point, a, b) * (b - a);
         if (distance(there, point) < distance(nearest, point)) nearest = there;
     }
     return nearest;

@@ -130,12 +130,13 @@ class LiftDoorsTest : public GpuTest {
         now[0].idle = seconds;
         buffers().lift_states.upload(now);
     }
+    bool isAnybodyAskedIn() { return std::ranges::count(riders(), gpu::RIDER_BOARDS, phaseOf) > 0; }
     /// @returns whether anybody was asked in meanwhile
     bool stepsUntilDoorsClose() {
         bool asked = false;
         for (int step = 0; step < 240 && lift().phase == gpu::LIFT_IS_OPEN; ++step) {
             simulation_->step();
-            if (step > 8) asked = asked || std::ranges::count(riders(), gpu::RIDER_BOARDS, phaseOf) > 0;
+            if (step > 8) asked = asked || isAnybodyAskedIn();
         }
         return asked;
     }
@@ -177,7 +178,7 @@ TEST_F(LiftDoorsTest, ThatStayOpenForLongLetInWhoComesLate) {
     bool asked = false;
     for (int step = 0; step < 12; ++step) {
         simulation_->step();
-        asked = asked || std::ranges::count(riders(), gpu::RIDER_BOARDS, phaseOf) > 0;
+        asked = asked || isAnybodyAskedIn();
     }
     EXPECT_TRUE(asked);
 }
