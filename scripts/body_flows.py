@@ -75,7 +75,8 @@ def hall_before(width, people):
 def corridor_with_door(people):
     """148 people come into a corridor of 1.8 m as fast as it takes them, and leave it by a door of 0.7 m at its end."""
     speed = {"normal": [1.55, 0.18], "min": 1.0, "max": 2.1}
-    sides = [{"points": [[-21, side], [0, side]], "thickness": 0.1} for side in (0.95, -0.95)]
+    # Closed behind them: else they walk round it.
+    sides = [{"points": [[0, 0.95], [-21, 0.95], [-21, -0.95], [0, -0.95]], "thickness": 0.1}]
     ends = [{"points": [[0, side * 0.35], [0, side * 0.95]], "thickness": 0.0} for side in (1, -1)]
     return {
         "throng": 1, "simulation": {"duration": 140, "fps": 24, "substeps": 2}, "walls": sides + ends,

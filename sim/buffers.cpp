@@ -185,16 +185,16 @@ gpu::Parameters makeParameters(const authoring::Scene& scene) {
     parameters.step_seconds = static_cast<float>(1.0 / (settings.fps * settings.substeps));
     parameters.decision_seconds = parameters.step_seconds * static_cast<float>(settings.stepsPerDecision());
     parameters.largest_radius = scene.largest_radius;
-    // Both may walk, and both may be pushed.
     const float pushed = std::max(kPushedAt * parameters.decision_seconds, kLeastPush);
-    parameters.contact_slack = 2.0f * (fastest(scene) * parameters.decision_seconds + pushed);
     parameters.contact_push = pushed + beltSpeed(scene) * parameters.decision_seconds;
     // Whose ways are given may set out as fast as they like.
     parameters.contact_gain =
         scene.given.empty() ? static_cast<float>(settings.maximum_acceleration) * parameters.decision_seconds
                             : fastest(scene);
-    parameters.contact_range = std::max(static_cast<float>(settings.contact_range),
-                                        2.0f * scene.largest_radius + parameters.contact_slack);
+    // Both may walk, and both may be pushed.
+    const float of_each = fastest(scene) * parameters.decision_seconds + parameters.contact_push;
+    parameters.contact_range =
+        std::max(static_cast<float>(settings.contact_range), 2.0f * (scene.largest_radius + of_each));
     parameters.cells_minimum = scene.minimum;
     parameters.cell_size = parameters.contact_range;
     // Of charts, whole numbers of cells make a shift.

@@ -22,8 +22,8 @@ float paceStridingAmongAll(Body self, Walker walker, vec2 way, float speed, uint
         float alike = likeness(way, wish);
         strides = strides && isPeaceful(alike);
         vec2 extents = own + extentsAlong(way, bodies[key].radius, vec2(walkers[key].axis_x, walkers[key].axis_y));
-        pace = min(pace, paceStriding(way, speed, bodies[key].position - self.position, extents,
-                                      bodies[key].velocity - self.velocity, wish, alike));
+        pace = min(pace, paceStriding(way, speed, bodies[key].position - self.position, extents, self.velocity,
+                                      bodies[key].velocity, wish, alike));
     }
     return pace;
 }

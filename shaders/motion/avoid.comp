@@ -137,9 +137,9 @@ void main() {
     if (!climbs && kept <= 0.0) {
         float striding = paceStridingAmongAll(self, walker, way, speed, slot, strides);
         if (strides) pace = striding;
-        if (strides) headway = ROOM_TO_STRIDE_HEADWAY;
     }
 #endif
+    bool follows = strides || headway > 0.0;
     float impatience = impatienceOf(walker.nervousness);
     if (climbs) impatience = 0.0;
 #ifdef BELTS
@@ -148,9 +148,9 @@ void main() {
 #if defined(TRAFFIC) || defined(LIFTS)
     if (isHeld(walker.flags)) impatience = 0.0;
 #endif
-    Manners manners = Manners(way, impatience, crowdingAmong(neighbour_counts[slot]), headway > 0.0 ? 1.0 : 0.0,
+    Manners manners = Manners(way, impatience, crowdingAmong(neighbour_counts[slot]), follows ? 1.0 : 0.0,
                               freedomAt(pace / max(speed, STANDING_SPEED)));
-    float in_peace = HEADWAY_IN_PEACE_ENABLED && headway <= 0.0 ? headwayInPeace(impatience) : 0.0;
+    float in_peace = HEADWAY_IN_PEACE_ENABLED && !follows ? headwayInPeace(impatience) : 0.0;
     Surroundings around = lookAround(self, slot, wish, speed, in_peace, manners);
     if (around.in_peace) pace = min(pace, around.pace);
     vec2 acceleration = drive(wish, speed, pace, self.velocity) +
@@ -158,7 +158,7 @@ void main() {
                         company(self, walker, way, speed);
     vec2 wanted = self.velocity + acceleration * parameters.decision_seconds;
     vec2 legs = self.velocity;  // what they start from
-    uint feet = (around.in_traffic ? FEET_IN_TRAFFIC : 0u) | (around.in_peace && headway > 0.0 ? FEET_WAIT : 0u);
+    uint feet = (around.in_traffic ? FEET_IN_TRAFFIC : 0u) | (around.in_peace && follows ? FEET_WAIT : 0u);
     if ((walker.flags & WALKER_AT_REST) != 0u && !somebodyWantsPast(self, slot)) feet |= FEET_STILL;
 #ifdef BELTS
     if (waits) feet |= FEET_STILL;  // it does not let itself be pushed on

@@ -1,27 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 // Room to stride, for those who have a body (`people.body`) and were given no headway. A body is as deep as a chest,
 // and who is as near to the one ahead as that allows cannot walk: legs take room that a body does not. So where
-// everybody whom one senses goes one's way, one follows whoever is before one's own breadth at a headway (equation 2 of
-// Tordeux, Chraibi and Seyfried 2016), by the true extents of both bodies: depth along the way, breadth across it. Who
-// draws away is followed sooner, by the way that it gains: through a door people go as those before them walk off, not
-// when they are gone. Who strides so does not press, and needs no turns (shaders/motion/taking_turns.glsl).
+// everybody whom one senses goes one's way, one follows whoever is before one's own breadth, by the true extents of both
+// bodies: depth along the way, breadth across it.
 //
-// Where streams meet nobody strides: a headway there only gives room away to those who come across.
+// A step is as long as the way is free, and the length of people's steps over how many they take is always the same,
+// their walk ratio (Sekiya and Nagasaki 1998): so the pace goes with the square of the free way. Half as much room is a
+// quarter of the pace, which is how crowds that walk one way slow down (Weidmann 1993).
+//
+// Who is faster than oneself goes on being so for a while: what its way to a stop would be longer than one's own, by
+// speeds squared (Gipps 1981), counts as free. Where all walk at one pace that is nothing, and small unevenness next to
+// nothing; at a door, where those before walk off, it is most: people go through as the one before walks off, not when
+// it is gone. Who strides so does not press, and needs no turns (shaders/motion/taking_turns.glsl).
+//
+// Where streams meet nobody strides: room kept there is only given away to those who come across.
 // Needs shaders/motion/walking_behind.glsl and headway.glsl, and shaders/shared/body_shape.glsl.
 
 #ifdef BODIES
 
 /// m/s: how fast one walks behind one other person, at most `speed`.
 /// @param extents m: how far apart the middles of both are that touch, one right behind the other, and side by side
-/// @param gains m/s: by how much the other is faster
-float paceStriding(vec2 way, float speed, vec2 offset, vec2 extents, vec2 gains, vec2 wish, float alike) {
+/// @param own, its m/s: how fast both are
+float paceStriding(vec2 way, float speed, vec2 offset, vec2 extents, vec2 own, vec2 its, vec2 wish, float alike) {
     float ahead = dot(offset, way);
     float aside = (way.x * offset.y - way.y * offset.x) / extents.y;
     bool leads = ahead > 0.0 && dot(offset, way + wish / max(length(wish), STANDING_SPEED)) > 0.0;
-    if (!leads || abs(aside) >= HEADWAY_STRAIGHT_AHEAD) return speed;
-    float free = ahead - extents.x * sqrt(1.0 - aside * aside) - ROOM_TO_STRIDE_GAP;
-    free += ROOM_TO_STRIDE_DRAWING_AWAY * dot(gains, way);
-    return mix(speed, clamp(free / ROOM_TO_STRIDE_HEADWAY, 0.0, speed), followed(alike));
+    if (!leads || abs(aside) >= ROOM_TO_STRIDE_STRAIGHT_AHEAD) return speed;
+    float along = max(dot(own, way), 0.0), its_along = max(dot(its, way), 0.0);
+    float free = ahead - extents.x * sqrt(1.0 - aside * aside) +
+                 ROOM_TO_STRIDE_DRAWING_AWAY * (its_along * its_along - along * along);
+    free = max(free, 0.0);
+    return mix(speed, min(free * free / ROOM_TO_STRIDE_WALK_RATIO, speed), followed(alike));
 }
 
 /// m: how far a body reaches along a way, and across it.

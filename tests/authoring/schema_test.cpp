@@ -89,12 +89,14 @@ bool notices(const Format& format, const Json& schema) {
     const Schema changed(schema.dump());
     Diagnostics diagnostics;
     try {
-        for (const std::string& document : format.documents)
+        for (const std::string& document : format.documents) {
             format.read(document, changed, diagnostics);
+            if (!diagnostics.entries.empty()) return true;
+        }
     } catch (const std::logic_error&) {
         return true;
     }
-    return !diagnostics.entries.empty();
+    return false;
 }
 
 /// Calls `visit` with every object of a document and its place.

@@ -51,19 +51,31 @@ class BodiesTest : public GpuTest {
         return bodyOf(simulation, scene, 0).middle.x > 1.0;
     }
     /// m: how far somebody at 1.2 m/s walks behind another at half a metre per second, whom it cannot pass.
-    double follows(double headway, double gap) {
+    double follows(double walk_ratio) {
         authoring::Scene scene = emptyScene({-2, -2}, {22, 2});
         addBody(scene, {1.5, 0}, {21, 0}, 0.0f).preferred_speed = 0.5f;
         addBody(scene, {0, 0}, {21, 0}, 0.0f);
         for (const float side : {0.45f, -0.45f})
             addWall(scene, {-1, side}, {22, side}, 0.1f);
-        setRule(scene, "room_to_stride", "headway", headway);
-        setRule(scene, "room_to_stride", "gap", gap);
+        setRule(scene, "room_to_stride", "walk_ratio", walk_ratio);
         sim::Simulation simulation(scene, library);
         for (int step = 0; step < 20 * 48; ++step)
             simulation.step();
         const auto states = simulation.parts().buffers.states.download<gpu::AgentState>(2);
         return states[0].position.x - states[1].position.x;
+    }
+    /// m: how far somebody comes in 1.5 s who stood right behind one who walks off.
+    double wayBehindOneWhoWalksOff(double drawing_away) {
+        authoring::Scene scene = emptyScene({-2, -2}, {22, 2});
+        addBody(scene, {0.35f, 0}, {21, 0}, 0.0f);
+        addBody(scene, {0, 0}, {21, 0}, 0.0f);
+        for (const float side : {0.45f, -0.45f})
+            addWall(scene, {-1, side}, {22, side}, 0.1f);
+        setRule(scene, "room_to_stride", "drawing_away", drawing_away);
+        sim::Simulation simulation(scene, library);
+        for (int step = 0; step < 72; ++step)
+            simulation.step();
+        return simulation.parts().buffers.states.download<gpu::AgentState>(2)[1].position.x;
     }
 };
 
@@ -100,8 +112,12 @@ TEST_F(BodiesTest, WithoutTurningShouldersDoNotFitThroughNarrowDoors) {
 }
 
 TEST_F(BodiesTest, WhoFollowsLeavesRoomToStrideBehindAChest) {
-    EXPECT_NEAR(follows(0.4, 0.08), kDepth + 0.08 + 0.4 * 0.5, 0.03);
-    EXPECT_NEAR(follows(0.8, 0.2), kDepth + 0.2 + 0.8 * 0.5, 0.03);
+    EXPECT_NEAR(follows(0.39), kDepth + std::sqrt(0.39 * 0.5), 0.03);
+    EXPECT_NEAR(follows(0.8), kDepth + std::sqrt(0.8 * 0.5), 0.03);
+}
+
+TEST_F(BodiesTest, WhoDrawsAwayIsFollowedSooner) {
+    EXPECT_GT(wayBehindOneWhoWalksOff(5.0), wayBehindOneWhoWalksOff(0.0) + 0.2);
 }
 
 }  // namespace

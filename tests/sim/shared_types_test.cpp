@@ -367,11 +367,10 @@ std::map<std::string, Layout> layoutsInCpp() {
                                             MEMBER(tile_radius),          MEMBER(largest_radius),
                                             MEMBER(step_seconds),         MEMBER(decision_seconds),
                                             MEMBER(time_horizon),         MEMBER(wall_time_horizon),
-                                            MEMBER(contact_range),        MEMBER(contact_slack),
-                                            MEMBER(contact_gain),         MEMBER(contact_push),
-                                            MEMBER(maximum_acceleration), MEMBER(site_rows),
-                                            MEMBER(chart_cell),           MEMBER(chart_width),
-                                            MEMBER(chart_height)}};
+                                            MEMBER(contact_range),        MEMBER(contact_gain),
+                                            MEMBER(contact_push),         MEMBER(maximum_acceleration),
+                                            MEMBER(site_rows),            MEMBER(chart_cell),
+                                            MEMBER(chart_width),          MEMBER(chart_height)}};
     }
     return result;
 }

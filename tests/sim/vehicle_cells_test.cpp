@@ -67,9 +67,57 @@ class VehicleCellsTest : public GpuTest {
         return all;
     }
 
+    /// What a pixel is by the definition.
+    struct Pixel {
+        std::uint32_t owner = gpu::NO_INDEX;
+        double distance = 0.0;
+        bool is_plain = true;  // near to one only, and at no edge
+    };
+
+    /// By the definition, whose reach a pixel is in.
+    static Pixel pixelAt(glm::dvec2 centre, const std::vector<gpu::DiagramSite>& all,
+                         const std::vector<gpu::VehicleBox>& vehicles) {
+        double nearest = 1.0e9, second = 1.0e9;
+        Pixel pixel;
+        const auto offer = [&](double distance, double reach, std::uint32_t id) {
+            if (std::abs(distance - reach) < 1.0e-3 || (distance > 0.0 && distance < 1.0e-3)) pixel.is_plain = false;
+            if (distance > reach) return;
+            if (distance < nearest) {
+                second = nearest;
+                nearest = distance;
+                pixel.owner = id;
+            } else {
+                second = std::min(second, distance);
+            }
+        };
+        for (const gpu::DiagramSite& site : all)
+            offer(glm::distance(glm::dvec2(site.position), centre), double{site.radius}, site.id);
+        for (std::uint32_t i = 0; i < vehicles.size(); ++i)
+            if (vehicles[i].half_width > 0.0f)
+                offer(distanceTo(vehicles[i], centre / double{kScale}) * kScale, 5.0,
+                      static_cast<std::uint32_t>(all.size()) + i);
+        pixel.distance = nearest;
+        if (nearest > 0.0 && second - nearest < 1.0e-3) pixel.is_plain = false;
+        return pixel;
+    }
+
+    static std::vector<Pixel> pixelsOf(const std::vector<gpu::DiagramSite>& all,
+                                       const std::vector<gpu::VehicleBox>& vehicles) {
+        std::vector<Pixel> pixels;
+        for (std::uint32_t y = 0; y < kHeight; ++y)
+            for (std::uint32_t x = 0; x < kWidth; ++x)
+                pixels.push_back(pixelAt(glm::dvec2(x, y) + 0.5, all, vehicles));
+        return pixels;
+    }
+
     /// How many pixels are not as the definition has them, those apart that are as near to one as to another.
     std::size_t wrongPixels(std::uint32_t moving, std::uint32_t walls, DiagramMethod method, bool paged,
                             const std::vector<gpu::VehicleBox>& vehicles) {
+        return wrongPixels(moving, walls, method, paged, vehicles, pixelsOf(sites(moving, walls), vehicles));
+    }
+
+    std::size_t wrongPixels(std::uint32_t moving, std::uint32_t walls, DiagramMethod method, bool paged,
+                            const std::vector<gpu::VehicleBox>& vehicles, const std::vector<Pixel>& expected) {
         const std::vector<gpu::DiagramSite> all = sites(moving, walls);
         const auto count = static_cast<std::uint32_t>(vehicles.size());
         const gl::Definitions definitions = {{"TRAFFIC", "1"}, {"VEHICLES", std::to_string(count) + "u"}};
@@ -99,38 +147,16 @@ class VehicleCellsTest : public GpuTest {
         diagram.connect({&site_buffer, &dispatch, &slot_buffer});
         diagram.build();
         diagram.build();  // nothing of the first one is left
-        const std::size_t pixels = std::size_t{kWidth} * kHeight;
-        const auto owners = diagram.wholeOwners().download<std::uint32_t>(pixels);
-        const auto distances = diagram.measureDistances().download<float>(pixels);
+        const auto owners = diagram.wholeOwners().download<std::uint32_t>(expected.size());
+        const auto distances = diagram.measureDistances().download<float>(expected.size());
         std::size_t wrong = 0, of_vehicles = 0;
-        for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
-            const glm::dvec2 centre(static_cast<double>(pixel % kWidth) + 0.5,
-                                    static_cast<double>(pixel / kWidth) + 0.5);
-            double nearest = 1.0e9, second = 1.0e9;
-            std::uint32_t owner = gpu::NO_INDEX;
-            bool at_an_edge = false;  // of somebody's reach
-            const auto offer = [&](double distance, double reach, std::uint32_t id) {
-                at_an_edge = at_an_edge || std::abs(distance - reach) < 1.0e-3 ||
-                             (distance > 0.0 && distance < 1.0e-3);
-                if (distance > reach) return;
-                if (distance < nearest) {
-                    second = nearest;
-                    nearest = distance;
-                    owner = id;
-                } else {
-                    second = std::min(second, distance);
-                }
-            };
-            for (const gpu::DiagramSite& site : all)
-                offer(glm::distance(glm::dvec2(site.position), centre), double{site.radius}, site.id);
-            for (std::uint32_t i = 0; i < count; ++i)
-                if (vehicles[i].half_width > 0.0f)
-                    offer(distanceTo(vehicles[i], centre / double{kScale}) * kScale, 5.0, moving + walls + i);
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+            const auto& [owner, distance, is_plain] = expected[i];
             of_vehicles += owner != gpu::NO_INDEX && owner >= moving + walls;
-            if (at_an_edge || (nearest > 0.0 && second - nearest < 1.0e-3)) continue;
+            if (!is_plain) continue;
             const bool near =
-                owner == gpu::NO_INDEX || std::abs(std::sqrt(double{distances[pixel]}) - nearest) < 1.0e-2;
-            wrong += owners[pixel] != owner || !near;
+                owner == gpu::NO_INDEX || std::abs(std::sqrt(double{distances[i]}) - distance) < 1.0e-2;
+            wrong += owners[i] != owner || !near;
         }
         EXPECT_GT(of_vehicles, 3'000u);  // the test sees them
         return wrong;
@@ -138,11 +164,13 @@ class VehicleCellsTest : public GpuTest {
 };
 
 TEST_F(VehicleCellsTest, AreWhatIsNearerToAVehicleThanToAnybodyElse) {
-    for (const std::uint32_t people : {1u, 63u, 1234u})
+    for (const std::uint32_t people : {1u, 63u, 1234u}) {
+        const std::vector<Pixel> expected = pixelsOf(sites(people, 40), boxes());
         for (const DiagramMethod method : {DiagramMethod::binned, DiagramMethod::per_site,
                                            DiagramMethod::per_pixel, DiagramMethod::gradient1})
-            EXPECT_EQ(wrongPixels(people, 40, method, false, boxes()), 0u)
+            EXPECT_EQ(wrongPixels(people, 40, method, false, boxes(), expected), 0u)
                 << people << ' ' << authoring::wordFor(method);
+    }
 }
 
 TEST_F(VehicleCellsTest, AreTheSameInPages) {
