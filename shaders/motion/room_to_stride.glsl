@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Room to stride, for those who have a body (`people.body`) and were given no headway. A body is as deep as a chest,
 // and who is as near to the one ahead as that allows cannot walk: legs take room that a body does not. So where
-// everybody whom one senses goes one's way, one follows whoever is before one's own breadth, by the true extents of both
-// bodies: depth along the way, breadth across it.
+// everybody whom one senses goes one's way, one follows whoever is before one's own breadth, by the true extents of
+// both bodies: depth along the way, breadth across it.
 //
 // A step is as long as the way is free, and the length of people's steps over how many they take is always the same,
 // their walk ratio (Sekiya and Nagasaki 1998): so the pace goes with the square of the free way. Half as much room is a
