@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rules about one other person, over everybody sensed.
-// Needs the blocks Bodies, Neighbours, NeighbourCounts, PreferredVelocities, the uniform slot_capacity, and
+// Needs the blocks Bodies, Neighbours, NeighbourCounts, PreferredVelocities, TouchWords, the uniform slot_capacity, and
 // shaders/motion/half_width.glsl.
 #include "shaders/motion/room.glsl"
 #include "shaders/motion/headway_in_peace.glsl"
@@ -10,9 +10,11 @@ uint neighbourKey(uint slot, uint nth) { return neighbours[nth * slot_capacity +
 
 #ifdef BODIES
 /// m/s: how fast somebody with a body wants to stride behind those ahead, if it may.
-/// @param strides receives whether it does: everybody sensed goes its way
+/// @param strides receives whether it does: everybody sensed goes its way, or through the same narrow passage
 float paceStridingAmongAll(Body self, Walker walker, vec2 way, float speed, uint slot, out bool strides) {
     strides = ROOM_TO_STRIDE_ENABLED && walker.half_axis != 0.0 && speed > STANDING_SPEED;
+    // Two who stand on both sides of a door walk towards each other first, and yet go one way (climbsInTurn).
+    bool is_in_narrows = (touch_words[slot] & TOUCH_IN_NARROWS) != 0u;
     float pace = speed;
     vec2 own = extentsAlong(way, self.radius, axis_of_self);
     for (uint i = 0u; i < neighbour_counts[slot]; ++i) {
@@ -20,7 +22,7 @@ float paceStridingAmongAll(Body self, Walker walker, vec2 way, float speed, uint
         if ((key & NEIGHBOUR_IS_WALL) != 0u) continue;
         vec2 wish = preferred_velocities[key];
         float alike = likeness(way, wish);
-        strides = strides && isPeaceful(alike);
+        strides = strides && (is_in_narrows || isPeaceful(alike));
         vec2 extents = own + extentsAlong(way, bodies[key].radius, vec2(walkers[key].axis_x, walkers[key].axis_y));
         pace = min(pace, paceStriding(way, speed, bodies[key].position - self.position, extents, self.velocity,
                                       bodies[key].velocity, wish, alike));
