@@ -58,6 +58,7 @@ class BodiesTest : public GpuTest {
         for (const float side : {0.45f, -0.45f})
             addWall(scene, {-1, side}, {22, side}, 0.1f);
         setRule(scene, "room_to_stride", "walk_ratio", walk_ratio);
+        setRule(scene, "room_to_stride", "drawing_away", 0.0);
         sim::Simulation simulation(scene, library);
         for (int step = 0; step < 20 * 48; ++step)
             simulation.step();
@@ -112,8 +113,9 @@ TEST_F(BodiesTest, WithoutTurningShouldersDoNotFitThroughNarrowDoors) {
 }
 
 TEST_F(BodiesTest, WhoFollowsLeavesRoomToStrideBehindAChest) {
-    EXPECT_NEAR(follows(0.39), kDepth + std::sqrt(0.39 * 0.5), 0.03);
-    EXPECT_NEAR(follows(0.8), kDepth + std::sqrt(0.8 * 0.5), 0.03);
+    // A chest that is not straight behind the other's touches it some 2 cm later.
+    EXPECT_NEAR(follows(0.39), kDepth + std::sqrt(0.39 * 0.5), 0.04);
+    EXPECT_NEAR(follows(0.8), kDepth + std::sqrt(0.8 * 0.5), 0.04);
 }
 
 TEST_F(BodiesTest, WhoDrawsAwayIsFollowedSooner) {
