@@ -129,14 +129,14 @@ TEST(Routes, DoorsOf80CentimetresAreOpenOnASiteOfOneKilometre) {
 TEST(Routes, ManyGoalsInRoomsOfTheirOwnNeedBoundedMemory) {
     Layout layout;
     std::vector<ListedAgent> agents;
-    for (int y = 0; y < 10; ++y)
-        for (int x = 0; x < 10; ++x) {
+    for (int y = 0; y < 14; ++y)
+        for (int x = 0; x < 14; ++x) {
             addHouse(layout, {6.0 * x, 6.0 * y}, 4.0, 0.8);
             agents.push_back(walker({-2.0 - 0.6 * x, 2.0 + 0.6 * y}, {6.0 * x + 2.0, 6.0 * y + 2.0}));
         }
     layout.formations.push_back(walkers(agents));
     const Scene scene = sceneWith(layout);
-    EXPECT_EQ(scene.field_count, 100u);
+    EXPECT_EQ(scene.field_count, 196u);
     EXPECT_LT(scene.fields.cells_per_field * scene.field_count * sizeof(gpu::FieldCell), 210u << 20);
     for (std::size_t i = 0; i < scene.people.size(); i += 13)
         EXPECT_LT(walkedWay(scene, scene.people[i]),
