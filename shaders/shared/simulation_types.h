@@ -229,9 +229,10 @@ struct Parameters {
     float decision_seconds;   // from one decision of people to the next: one step or several
     float time_horizon;       // s
     float wall_time_horizon;  // s
-    float contact_range;      // m: who are further apart cannot touch before the next decision, however fast they are
-    float contact_gain;       // m/s: how much faster somebody may be by then than it is
-    float contact_push;       // m: how far at most others may have moved it by then
+    float contact_range;  // m: who are further apart cannot touch before the next decision, however fast they
+                          // are
+    float contact_gain;   // m/s: how much faster somebody may be by then than it is
+    float contact_push;   // m: how far at most others may have moved it by then
     float maximum_acceleration;  // m/s^2
     uint site_rows;              // rows of people, and as many for each image that one may have
     float chart_cell;            // m, of the raster of charts, which begins where the fields' grid does

@@ -353,24 +353,24 @@ std::map<std::string, Layout> layoutsInCpp() {
     }
     {
         using T = gpu::Parameters;
-        result["Parameters"] = {sizeof(T), {MEMBER(cells_minimum),        MEMBER(diagram_minimum),
-                                            MEMBER(grid_minimum),         MEMBER(cell_size),
-                                            MEMBER(cells_width),          MEMBER(cells_height),
-                                            MEMBER(pixels_per_metre),     MEMBER(diagram_width),
-                                            MEMBER(diagram_height),       MEMBER(grid_cell),
-                                            MEMBER(grid_width),           MEMBER(grid_height),
-                                            MEMBER(field_cell),           MEMBER(field_blocks_across),
-                                            MEMBER(field_blocks_up),      MEMBER(cells_per_field),
-                                            MEMBER(detour_cell),          MEMBER(detour_width),
-                                            MEMBER(detour_height),        MEMBER(row_count),
-                                            MEMBER(queue_count),          MEMBER(seed),
-                                            MEMBER(tile_radius),          MEMBER(largest_radius),
-                                            MEMBER(step_seconds),         MEMBER(decision_seconds),
-                                            MEMBER(time_horizon),         MEMBER(wall_time_horizon),
-                                            MEMBER(contact_range),        MEMBER(contact_gain),
-                                            MEMBER(contact_push),         MEMBER(maximum_acceleration),
-                                            MEMBER(site_rows),            MEMBER(chart_cell),
-                                            MEMBER(chart_width),          MEMBER(chart_height)}};
+        result["Parameters"] = {sizeof(T), {MEMBER(cells_minimum),    MEMBER(diagram_minimum),
+                                            MEMBER(grid_minimum),     MEMBER(cell_size),
+                                            MEMBER(cells_width),      MEMBER(cells_height),
+                                            MEMBER(pixels_per_metre), MEMBER(diagram_width),
+                                            MEMBER(diagram_height),   MEMBER(grid_cell),
+                                            MEMBER(grid_width),       MEMBER(grid_height),
+                                            MEMBER(field_cell),       MEMBER(field_blocks_across),
+                                            MEMBER(field_blocks_up),  MEMBER(cells_per_field),
+                                            MEMBER(detour_cell),      MEMBER(detour_width),
+                                            MEMBER(detour_height),    MEMBER(row_count),
+                                            MEMBER(queue_count),      MEMBER(seed),
+                                            MEMBER(tile_radius),      MEMBER(largest_radius),
+                                            MEMBER(step_seconds),     MEMBER(decision_seconds),
+                                            MEMBER(time_horizon),     MEMBER(wall_time_horizon),
+                                            MEMBER(contact_range),    MEMBER(contact_gain),
+                                            MEMBER(contact_push),     MEMBER(maximum_acceleration),
+                                            MEMBER(site_rows),        MEMBER(chart_cell),
+                                            MEMBER(chart_width),      MEMBER(chart_height)}};
     }
     return result;
 }

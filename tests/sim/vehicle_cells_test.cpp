@@ -80,7 +80,8 @@ class VehicleCellsTest : public GpuTest {
         double nearest = 1.0e9, second = 1.0e9;
         Pixel pixel;
         const auto offer = [&](double distance, double reach, std::uint32_t id) {
-            if (std::abs(distance - reach) < 1.0e-3 || (distance > 0.0 && distance < 1.0e-3)) pixel.is_plain = false;
+            if (std::abs(distance - reach) < 1.0e-3 || (distance > 0.0 && distance < 1.0e-3))
+                pixel.is_plain = false;
             if (distance > reach) return;
             if (distance < nearest) {
                 second = nearest;
@@ -117,7 +118,8 @@ class VehicleCellsTest : public GpuTest {
     }
 
     std::size_t wrongPixels(std::uint32_t moving, std::uint32_t walls, DiagramMethod method, bool paged,
-                            const std::vector<gpu::VehicleBox>& vehicles, const std::vector<Pixel>& expected) {
+                            const std::vector<gpu::VehicleBox>& vehicles,
+                            const std::vector<Pixel>& expected) {
         const std::vector<gpu::DiagramSite> all = sites(moving, walls);
         const auto count = static_cast<std::uint32_t>(vehicles.size());
         const gl::Definitions definitions = {{"TRAFFIC", "1"}, {"VEHICLES", std::to_string(count) + "u"}};
