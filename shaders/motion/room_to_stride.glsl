@@ -14,7 +14,7 @@
 // it is gone. Who strides so does not press, and needs no turns (shaders/motion/taking_turns.glsl).
 //
 // Where streams meet nobody strides: room kept there is only given away to those who come across.
-// Needs shaders/motion/walking_behind.glsl and headway.glsl, and shaders/shared/body_shape.glsl.
+// Needs shaders/motion/walking_behind.glsl and shaders/shared/body_shape.glsl.
 
 #ifdef BODIES
 

@@ -50,13 +50,19 @@ class BodiesTest : public GpuTest {
             simulation.step();
         return bodyOf(simulation, scene, 0).middle.x > 1.0;
     }
-    /// m: how far somebody at 1.2 m/s walks behind another at half a metre per second, whom it cannot pass.
-    double follows(double walk_ratio) {
+    /// Two in a passage too narrow to pass each other, the second so far behind, m.
+    static authoring::Scene oneBehindAnother(float distance) {
         authoring::Scene scene = emptyScene({-2, -2}, {22, 2});
-        addBody(scene, {1.5, 0}, {21, 0}, 0.0f).preferred_speed = 0.5f;
+        addBody(scene, {distance, 0}, {21, 0}, 0.0f);
         addBody(scene, {0, 0}, {21, 0}, 0.0f);
         for (const float side : {0.45f, -0.45f})
             addWall(scene, {-1, side}, {22, side}, 0.1f);
+        return scene;
+    }
+    /// m: how far somebody at 1.2 m/s walks behind another at half a metre per second, whom it cannot pass.
+    double follows(double walk_ratio) {
+        authoring::Scene scene = oneBehindAnother(1.5f);
+        scene.people[0].preferred_speed = 0.5f;
         setRule(scene, "room_to_stride", "walk_ratio", walk_ratio);
         setRule(scene, "room_to_stride", "drawing_away", 0.0);
         sim::Simulation simulation(scene, library);
@@ -67,11 +73,7 @@ class BodiesTest : public GpuTest {
     }
     /// m: how far somebody comes in 1.5 s who stood right behind one who walks off.
     double wayBehindOneWhoWalksOff(double drawing_away) {
-        authoring::Scene scene = emptyScene({-2, -2}, {22, 2});
-        addBody(scene, {0.35f, 0}, {21, 0}, 0.0f);
-        addBody(scene, {0, 0}, {21, 0}, 0.0f);
-        for (const float side : {0.45f, -0.45f})
-            addWall(scene, {-1, side}, {22, side}, 0.1f);
+        authoring::Scene scene = oneBehindAnother(0.35f);
         setRule(scene, "room_to_stride", "drawing_away", drawing_away);
         sim::Simulation simulation(scene, library);
         for (int step = 0; step < 72; ++step)
