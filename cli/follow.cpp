@@ -27,10 +27,6 @@ namespace {
 /// same way.
 constexpr double kSameWay = 0.5;
 
-bool isNoDisc(const gpu::Person& person) {
-    return person.half_axis != 0.0f;
-}
-
 void checkRequest(const io::Bake& bake, const FollowRequest& request) {
     for (const std::uint32_t row : request.rows)
         if (row >= bake.agents)
@@ -183,10 +179,6 @@ void followPeople(io::CrowdReader& crowd, const FollowRequest& told) {
     request.rows.erase(std::ranges::unique(request.rows).begin(), request.rows.end());
     checkRequest(crowd.bake(), request);
     const LoadedLayout loaded = layoutOf(crowd.bake(), request);
-    if (std::ranges::any_of(loaded.scene.people, isNoDisc))
-        throw InputError(crowd.bake().folder,
-                         "has people who are no discs (people.body): they cannot be followed; leave body out "
-                         "and bake anew to follow who is a disc");
     Run run(crowd, loaded, request);
     run.simulate();
     const std::vector<analysis::FollowAccount> accounts = run.accounts();

@@ -439,15 +439,6 @@ gl::ComputeProgram Buffers::connect(const gl::ShaderLibrary& library, const gl::
     return program;
 }
 
-std::vector<gpu::Walker> Buffers::downloadWalkers(std::uint32_t count, std::uint32_t first) const {
-    const std::size_t bytes = walkers.contents()->element_bytes;
-    const auto words = walkers.download<std::uint32_t>(count * bytes / gl::kWord, first * bytes / gl::kWord);
-    std::vector<gpu::Walker> found(count);
-    for (std::size_t i = 0; i < count; ++i)
-        std::memcpy(&found[i], words.data() + i * bytes / gl::kWord, sizeof(gpu::Walker));
-    return found;
-}
-
 gl::Definitions Buffers::definitions(const MotionSettings& rules) const {
     gl::Definitions all = rules.definitions();
     for (const auto& definition : definitions())

@@ -74,9 +74,6 @@ struct Buffers {
     gl::Definitions definitions() const;
     /// What programs that move people are compiled with.
     gl::Definitions definitions(const MotionSettings& rules) const;
-    /// Those of slots from `first` on, less what programs have of them that C++ does not. Waits for the
-    /// device.
-    std::vector<gpu::Walker> downloadWalkers(std::uint32_t count, std::uint32_t first = 0) const;
     /// Slots that per-slot lists are laid out for.
     std::uint32_t slotCapacity() const {
         return static_cast<std::uint32_t>(bodies.bytes() / sizeof(gpu::Body));

@@ -112,7 +112,7 @@ class Drawing {
 
     // The plan.
 
-    glm::dvec2 inWorld(glm::vec2 place) const { return plot_.origin + glm::dvec2(place); }
+    glm::dvec2 inWorld(glm::dvec2 place) const { return plot_.origin + place; }
     glm::dvec2 inPlan(glm::dvec2 world) const {
         const glm::dvec2 middle(0.5 * (kPlan.left + kPlan.right), 0.5 * (kPlan.top + kPlan.bottom));
         const glm::dvec2 offset = (world - middle_) * scale_;
@@ -172,19 +172,31 @@ class Drawing {
         return found == plot_.steps.end() ? nullptr : &*found;
     }
 
+    void body(const Capsule& shape) const {
+        const glm::dvec2 at = inPlan(inWorld(shape.middle)),
+                         half(shape.axis.x * scale_, -shape.axis.y * scale_);
+        const double across = std::atan2(half.y, half.x), radius = shape.thickness * scale_;
+        cairo_new_path(pen());
+        cairo_arc(pen(), at.x + half.x, at.y + half.y, radius, across - 0.25 * kTau, across + 0.25 * kTau);
+        cairo_arc(pen(), at.x - half.x, at.y - half.y, radius, across + 0.25 * kTau, across + 0.75 * kTau);
+        cairo_close_path(pen());
+        cairo_set_line_width(pen(), 1.2);
+        cairo_stroke(pen());
+    }
+
     void drawMoment() const {
         const FollowedStep* step = moment();
         if (!step) return;
         canvas_.use(kGrey);
         for (const SensedPerson& other : step->sensed) {
             const glm::dvec2 at = inPlan(inWorld(other.place));
+            body(bodyOf(other));
             const double radius = other.radius * scale_;
-            circle(at, radius, false);
             canvas_.text(at.x + radius + 3, at.y + 4, 11, fmt::format("{}", other.row));
         }
         canvas_.use(kInk);
         const glm::dvec2 at = inPlan(inWorld(step->place));
-        circle(at, step->radius * scale_, false);
+        body(bodyAfter(*step));
         line(at, inPlan(inWorld(step->place) + wayOf(*step) * 0.6), 1.5);
     }
 
@@ -217,7 +229,7 @@ class Drawing {
         if (!moment()) return;
         canvas_.text(
             kPlan.left, y + 54, 13,
-            fmt::format("circles: itself and whom it sensed at {:.2f} s, with rows; the stroke is its wish",
+            fmt::format("outlines: itself and whom it sensed at {:.2f} s, with rows; the stroke is its wish",
                         moment()->time));
     }
 

@@ -15,12 +15,13 @@ namespace {
 constexpr const char* kInfluences =
     "row,step,time_s,pass,rule,changed,before_x,before_y,after_x,after_y,along_wish,left_of_wish\n";
 constexpr const char* kSteps =
-    "row,step,time_s,decides,doing,stage,goal_x_m,goal_y_m,x_m,y_m,facing_x,facing_y,wish_x_m_s,wish_y_m_s,"
+    "row,step,time_s,decides,doing,stage,goal_x_m,goal_y_m,x_m,y_m,facing_x,facing_y,chest_x,chest_y,wish_x_"
+    "m_s,wish_y_m_s,"
     "velocity_x_m_s,velocity_y_m_s,along_wish_m_s,pace_m_s,backward,nervousness,sensed,nearest_row,"
     "nearest_gap_m,touch_row,touch_s,free_ahead_m,wall_gap_m,touching,in_narrows\n";
 
 constexpr const char* kWords[] = {"walking", "stopping", "queueing", "arrived"};
-constexpr const char* kChanged[] = {"wish", "velocity", "heading"};
+constexpr const char* kChanged[] = {"wish", "velocity", "heading", "chest"};
 
 OutputFile fresh(const std::filesystem::path& path) {
     removeFile(path);
@@ -66,10 +67,10 @@ void tellStep(std::string& text, const FollowedStep& step, glm::dvec2 origin) {
                    step.step, step.time, step.decides ? 1 : 0, kWords[static_cast<int>(step.doing)],
                    step.stage, goal.x, goal.y, place.x, place.y);
     fmt::format_to(std::back_inserter(text),
-                   "{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{},{:.4f},", step.facing.x,
-                   step.facing.y, step.wish.x, step.wish.y, step.velocity.x, step.velocity.y,
-                   glm::dot(glm::dvec2(step.velocity), wayOf(step)), step.pace, isBackward(step) ? 1 : 0,
-                   step.nervousness);
+                   "{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{},{:.4f},",
+                   step.facing.x, step.facing.y, step.chest.x, step.chest.y, step.wish.x, step.wish.y,
+                   step.velocity.x, step.velocity.y, glm::dot(glm::dvec2(step.velocity), wayOf(step)),
+                   step.pace, isBackward(step) ? 1 : 0, step.nervousness);
     tellSensed(text, step);
     fmt::format_to(std::back_inserter(text), "{},{},{},{}\n", orNothing(step.free_ahead),
                    orNothing(step.wall_gap), step.touching, step.in_narrows ? 1 : 0);

@@ -80,6 +80,7 @@ class Follower::Eye {
         FollowedStep now;
         std::optional<std::uint32_t> slot;                           // since the last decision
         glm::vec2 velocity{0.0f};                                    // m/s, as far as the step has come
+        glm::vec2 chest{1.0f, 0.0f};                                 // likewise
         glm::vec2 ground{0.0f};                                      // m/s, to which velocities are relative
         std::vector<std::pair<std::string, glm::vec2>> each_step{};  // m/s: what it decided for each step
     };
@@ -118,9 +119,20 @@ class Follower::Eye {
         now.place_before = now.place = state.position;
         now.facing_before = now.facing = {std::cos(state.heading), std::sin(state.heading)};
         now.velocity_before = now.velocity = state.velocity;
+        lookAtChest(row, now);
+        now.chest_before = now.chest;
         now.nervousness = state.nervousness;
         now.influences.clear();
         watched.velocity = state.velocity;
+        watched.chest = now.chest;
+    }
+
+    void lookAtChest(std::uint32_t row, FollowedStep& now) const {
+        now.chest = now.facing;
+        if (!parts_.buffers.hasBodies()) return;
+        const gpu::Chest chest = parts_.buffers.chests.download<gpu::Chest>(1, row).front();
+        now.half_axis = chest.half_axis;
+        if (now.half_axis != 0.0f) now.chest = {std::cos(chest.angle), std::sin(chest.angle)};
     }
 
     void before(const std::string& pass) {
@@ -152,7 +164,8 @@ class Follower::Eye {
         bodies_ = parts_.buffers.bodies.download<gpu::Body>(live);
         for (auto& [row, watched] : watched_)
             watched.slot.reset();
-        const auto walkers = parts_.buffers.downloadWalkers(live);
+        const auto walkers = parts_.buffers.walkers.downloadParts<gpu::Walker>(live);
+        axes_ = axesOf(parts_.buffers, live);
         for (std::uint32_t slot = 0; slot < live; ++slot) {
             const auto found = watched_.find(bodies_[slot].row);
             if (found == watched_.end() || (walkers[slot].flags & gpu::WALKER_IS_IMAGE) != 0) continue;
@@ -162,7 +175,7 @@ class Follower::Eye {
             slots_ = slot + 1;
             present_[found->first] = &found->second;
             found->second.now.place_before = bodies_[slot].position;  // beyond a seam, if it walked over one
-            tellSenses(parts_, scene_, bodies_, slot, found->second.now);
+            tellSenses(parts_, scene_, {bodies_, axes_}, slot, found->second.now);
         }
     }
 
@@ -171,7 +184,7 @@ class Follower::Eye {
     glm::vec2 groundUnder(std::uint32_t slot) const {
         const std::vector<gpu::Belt>& belts = scene_.chart_map.belts;
         if (belts.empty()) return glm::vec2(0.0f);
-        const std::uint32_t flags = parts_.buffers.downloadWalkers(1, slot).front().flags;
+        const std::uint32_t flags = parts_.buffers.walkers.downloadParts<gpu::Walker>(1, slot).front().flags;
         if ((flags & gpu::WALKER_IS_CARRIED) == 0) return glm::vec2(0.0f);
         const float seconds = parts_.parameters.step_seconds;
         const glm::vec2 way = belts[flags >> gpu::WALKER_CHART_AT & gpu::NO_CHART].velocity * seconds;
@@ -190,18 +203,34 @@ class Follower::Eye {
             tellWish(*watched, wishes);
             FollowedStep& now = watched->now;
             now.free_ahead = freeAhead(now);
-            now.pace = parts_.buffers.decisions.download<gpu::Decision>(1, *watched->slot).front().pace;
+            now.pace = parts_.buffers.decisions.downloadParts<gpu::Decision>(1, *watched->slot).front().pace;
             watched->each_step.clear();
             Chain chain(now, "avoidance", Changed::velocity, watched->velocity);
             glm::vec2 change(0.0f);
             for (const ClimbToDecide& climb : decided) {
-                chain.to(climb.rule, velocityTo(*watched, climb.targets[*watched->slot]));
-                const glm::vec2 with_it = climb.decisions[*watched->slot].change;
-                if (with_it != change) watched->each_step.emplace_back(climb.rule, with_it - change);
+                chain.to(climb.target.rule, velocityTo(*watched, climb.target.values[*watched->slot]));
+                const glm::vec2 with_it = climb.changes[*watched->slot];
+                if (with_it != change) watched->each_step.emplace_back(climb.target.rule, with_it - change);
                 change = with_it;
             }
             watched->velocity = chain.at();
+            turnShoulders(*watched, decided.back().target);
         }
+    }
+
+    /// A chest turns to where it is wanted, whatever made that so: no rule of a decision does it.
+    void turnShoulders(Watched& watched, const Climb& target) const {
+        Chain chain(watched.now, "avoidance", Changed::chest, watched.chest);
+        if (const auto chest = chestAt(watched, target)) chain.to("shoulders", *chest);
+        watched.chest = chain.at();
+    }
+
+    /// Where the chest of a body that is no disc points.
+    static std::optional<glm::vec2> chestAt(const Watched& watched, const Climb& target) {
+        const float half_axis = watched.now.half_axis;
+        if (target.axes.empty() || half_axis == 0.0f) return std::nullopt;
+        const glm::vec2 along = target.axes[*watched.slot] / half_axis;
+        return half_axis > 0.0f ? glm::vec2(along.y, -along.x) : -along;
     }
 
     void tellWish(Watched& watched, const std::vector<Climb>& wishes) {
@@ -230,6 +259,7 @@ class Follower::Eye {
             for (const Climb& climb : carried)
                 chain.to(climb.rule, velocityTo(*watched, climb.values[*watched->slot]));
             watched->velocity = chain.at();
+            turnShoulders(*watched, carried.back());
         }
     }
 
@@ -243,6 +273,10 @@ class Follower::Eye {
             for (const Climb& climb : pushed)
                 chain.to(climb.rule, velocityTo(*watched, climb.values[*watched->slot]));
             watched->velocity = chain.at();
+            Chain chest(watched->now, "contacts", Changed::chest, watched->chest);
+            for (const Climb& climb : pushed)
+                if (const auto turned = chestAt(*watched, climb)) chest.to(climb.rule, *turned);
+            watched->chest = chest.at();
         }
     }
 
@@ -259,6 +293,7 @@ class Follower::Eye {
             now.velocity = state.velocity;
             now.nervousness = state.nervousness;
             now.facing = {std::cos(state.heading), std::sin(state.heading)};
+            lookAtChest(row, now);
             Chain velocity(now, "motion", Changed::velocity, watched->velocity);
             const bool too_fast = glm::length(watched->velocity) > glm::length(now.velocity) + kNoise;
             velocity.to(too_fast ? "maximum_speed" : "rounding", now.velocity);
@@ -274,6 +309,7 @@ class Follower::Eye {
     std::vector<std::uint32_t> rows_;
     Ladders ladders_;
     std::vector<gpu::Body> bodies_;  // of all slots, as of the last decision
+    std::vector<glm::vec2> axes_;    // likewise
     std::uint32_t slots_ = 0;        // up to the last one that is followed
     std::size_t left_ = 0;           // people who are no more
     std::map<std::uint32_t, Watched> watched_;

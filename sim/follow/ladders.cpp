@@ -36,6 +36,7 @@ Ladders::Ladders(Simulation::Parts& parts, const authoring::Scene& scene)
     states_ = alike(all.states);
     kept_lines_ = alike(all.lines);
     lines_ = alike(all.lines);
+    chests_ = alike(all.chests);
     makeDecisions();
     makeContacts();
     makeMotion();
@@ -75,6 +76,13 @@ void Ladders::makeDecisions() {
         step.program.bind("Decisions", decisions_);
 }
 
+Climb Ladders::climbTo(const std::string& rule, const gl::Buffer& targets, std::uint32_t slots) const {
+    Climb climb{rule, targets.downloadParts<glm::vec2>(slots)};
+    if (parts_.buffers.hasBodies())
+        climb.axes = targets.downloadParts<glm::vec2>(slots, 0, sizeof(glm::vec2));
+    return climb;
+}
+
 void Ladders::makeContacts() {
     const auto add = [&](const std::string& rule, const MotionSettings& rules,
                          const gl::Buffer& touch_words) {
@@ -95,6 +103,7 @@ void Ladders::makeMotion() {
         move_.push_back({rung.rule, makeMove(parts_.library, parts_.buffers, rung.rules)});
         move_.back().program.bindAll(
             {{"Targets", &parts_.contacts.result()}, {"States", &states_}, {"WaitingLines", &lines_}});
+        if (parts_.buffers.hasBodies()) move_.back().program.bind("Chests", chests_);
     }
 }
 
@@ -118,8 +127,7 @@ std::vector<ClimbToDecide> Ladders::decided(std::uint32_t slots) {
     for (Step& step : avoid_) {
         touched_.copyFrom(touch_words_);
         step.program.dispatch(slots);
-        climbs.push_back(
-            {step.rule, targets_.download<glm::vec2>(slots), decisions_.download<gpu::Decision>(slots)});
+        climbs.push_back({climbTo(step.rule, targets_, slots), decisions_.downloadParts<glm::vec2>(slots)});
     }
     return climbs;
 }
@@ -128,7 +136,7 @@ std::vector<Climb> Ladders::carriedOn(std::uint32_t slots) {
     std::vector<Climb> climbs;
     for (Step& step : carry_on_) {
         step.program.dispatch(slots);
-        climbs.push_back({step.rule, targets_.download<glm::vec2>(slots)});
+        climbs.push_back(climbTo(step.rule, targets_, slots));
     }
     return climbs;
 }
@@ -149,7 +157,7 @@ std::vector<Climb> Ladders::pushed(std::uint32_t slots, const std::vector<std::u
         targets_.copyFrom(kept_targets_);
         targets_after_.copyFrom(kept_targets_);
         round.contacts.run();
-        climbs.push_back({round.rule, round.contacts.result().download<glm::vec2>(slots)});
+        climbs.push_back(climbTo(round.rule, round.contacts.result(), slots));
     }
     return climbs;
 }

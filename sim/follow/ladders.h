@@ -16,13 +16,14 @@ namespace throng::sim {
 struct Climb {
     std::string rule;
     std::vector<glm::vec2> values;  ///< by slot, or as is said
+    std::vector<glm::vec2>
+        axes{};  ///< m, by slot: of bodies there (shaders/shared/body_shape.glsl); targets only
 };
 
-/// The same of a decision.
+/// The same of a decision: targets, m, and how velocities change in each step, m/s.
 struct ClimbToDecide {
-    std::string rule;
-    std::vector<glm::vec2> targets;  ///< m, by slot
-    std::vector<gpu::Decision> decisions;
+    Climb target;
+    std::vector<glm::vec2> changes;
 };
 
 /// The programs of a step by which people decide and move, once for each of their rules: first without any,
@@ -65,11 +66,12 @@ class Ladders {
     void makeDecisions();
     void makeContacts();
     void makeMotion();
+    Climb climbTo(const std::string& rule, const gl::Buffer& targets, std::uint32_t slots) const;
 
     Simulation::Parts& parts_;
     const TerrainSlopes* ground_;
     gl::Buffer walkers_, wishes_, touch_words_, touched_, targets_, targets_after_, ways_, decisions_;
-    gl::Buffer no_jams_, kept_targets_, kept_states_, states_, kept_lines_, lines_;
+    gl::Buffer no_jams_, kept_targets_, kept_states_, states_, kept_lines_, lines_, chests_;
     std::vector<Step> steer_, avoid_, carry_on_, move_;
     std::vector<Round> contacts_;
 };

@@ -7,30 +7,40 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "base/capsule.h"
 #include "sim/wall_index.h"
 
 namespace throng::sim {
 namespace {
 
-float distanceToWall(glm::vec2 place, const gpu::WallSegment& wall) {
-    const glm::vec2 axis = wall.b - wall.a;
-    const float along = glm::dot(place - wall.a, axis) / std::max(glm::dot(axis, axis), 1.0e-12f);
-    const glm::vec2 nearest = wall.a + axis * std::clamp(along, 0.0f, 1.0f);
-    return glm::distance(place, nearest) - wall.half_thickness;
+Capsule bodyIn(const BodiesThere& there, std::uint32_t slot) {
+    const gpu::Body& body = there.bodies[slot];
+    const glm::dvec2 axis = there.axes[slot];
+    return {body.position, axis, static_cast<double>(body.radius) - glm::length(axis)};
 }
 
-/// s until two bodies touch as they move; -1: they do not.
-float secondsToTouch(const gpu::Body& self, const gpu::Body& other) {
-    const glm::vec2 offset = self.position - other.position;
-    const glm::vec2 relative = self.velocity - other.velocity;
-    const float reach = self.radius + other.radius;
-    const float beyond = glm::dot(offset, offset) - reach * reach;
-    const float closing = -glm::dot(offset, relative);
-    const float speed_squared = glm::dot(relative, relative);
-    if (beyond <= 0.0f) return 0.0f;
-    const float inside = closing * closing - speed_squared * beyond;
-    if (closing <= 0.0f || inside <= 0.0f || speed_squared < 1.0e-6f) return -1.0f;
-    return (closing - std::sqrt(inside)) / speed_squared;
+Capsule asBody(const gpu::WallSegment& wall) {
+    const glm::dvec2 a = wall.a, b = wall.b;
+    return {0.5 * (a + b), 0.5 * (b - a), static_cast<double>(wall.half_thickness)};
+}
+
+/// How long one body has to move at a velocity, without turning, to touch another that stands; below zero: it
+/// passes by. No body comes nearer to another than by as much as it moves, so it may always go on by what is
+/// free.
+double untilTouch(Capsule self, const Capsule& other, glm::dvec2 velocity) {
+    constexpr int kRounds = 200;
+    constexpr double kTouch = 1.0e-4;  // m
+    const double speed = glm::length(velocity);
+    double time = 0.0;
+    for (int round = 0; round < kRounds; ++round) {
+        const glm::dvec2 gap = segmentsGap(self.middle - other.middle, self.axis, other.axis);
+        const double free = glm::length(gap) - self.thickness - other.thickness;
+        if (free <= kTouch) return time;
+        if (glm::dot(gap, velocity) >= 0.0) return -1.0;
+        self.middle += velocity * (free / speed);
+        time += free / speed;
+    }
+    return -1.0;  // it touches nothing, or hardly
 }
 
 /// Segments of the cell that a place is in: those near by.
@@ -46,10 +56,18 @@ std::vector<std::uint32_t> wallsNear(const Simulation::Parts& parts, glm::vec2 p
 
 }  // namespace
 
-void tellSenses(const Simulation::Parts& parts, const authoring::Scene& scene,
-                const std::vector<gpu::Body>& bodies, std::uint32_t slot, FollowedStep& step) {
+std::vector<glm::vec2> axesOf(const Buffers& buffers, std::uint32_t slots) {
+    if (!buffers.hasBodies()) return std::vector<glm::vec2>(slots, glm::vec2(0.0f));
+    // The last of what there is of a walker (shaders/shared/simulation_types.h).
+    const std::size_t at = buffers.walkers.contents()->element_bytes - sizeof(glm::vec2);
+    return buffers.walkers.downloadParts<glm::vec2>(slots, 0, at);
+}
+
+void tellSenses(const Simulation::Parts& parts, const authoring::Scene& scene, const BodiesThere& there,
+                std::uint32_t slot, FollowedStep& step) {
     const Buffers& buffers = parts.buffers;
-    const gpu::Body& self = bodies[slot];
+    const gpu::Body& self = there.bodies[slot];
+    const Capsule body = bodyIn(there, slot);
     const std::uint32_t count = buffers.neighbour_counts.download<std::uint32_t>(1, slot).front();
     const std::uint32_t touch = buffers.touch_words.download<std::uint32_t>(1, slot).front();
     step.touching = touch & gpu::TOUCH_COUNT_MASK;
@@ -61,35 +79,35 @@ void tellSenses(const Simulation::Parts& parts, const authoring::Scene& scene,
         const std::uint32_t key = buffers.neighbours.download<std::uint32_t>(1, at).front();
         if (key & gpu::NEIGHBOUR_IS_WALL) {
             walls.push_back(key & ~gpu::NEIGHBOUR_IS_WALL);
-        } else if (key < bodies.size()) {
-            const gpu::Body& other = bodies[key];
-            step.sensed.push_back({other.row, other.position, other.radius,
-                                   glm::distance(self.position, other.position) - self.radius - other.radius,
-                                   secondsToTouch(self, other)});
+        } else if (key < there.bodies.size()) {
+            const gpu::Body& other = there.bodies[key];
+            const Capsule its = bodyIn(there, key);
+            const glm::dvec2 relative = self.velocity - other.velocity;
+            step.sensed.push_back({other.row, other.position, other.radius, there.axes[key],
+                                   static_cast<float>(freeBetween(body, its)),
+                                   static_cast<float>(untilTouch(body, its, relative))});
         }
     }
     step.wall_gap = -1.0f;
-    float nearest = std::numeric_limits<float>::infinity();
+    double nearest = std::numeric_limits<double>::infinity();
     for (const std::uint32_t wall : walls)
-        nearest = std::min(nearest, distanceToWall(self.position, scene.wall_segments[wall]));
-    if (std::isfinite(nearest)) step.wall_gap = std::max(nearest - self.radius, 0.0f);
+        nearest = std::min(nearest, freeBetween(body, asBody(scene.wall_segments[wall])));
+    if (std::isfinite(nearest)) step.wall_gap = static_cast<float>(std::max(nearest, 0.0));
 }
 
 float freeAhead(const FollowedStep& step) {
-    const float speed = glm::length(step.wish);
-    if (speed <= gpu::STANDING_SPEED) return -1.0f;
-    const glm::vec2 way = step.wish / speed;
-    float free = -1.0f;
+    const glm::dvec2 wish = step.wish;
+    const double speed = glm::length(wish);
+    if (speed <= static_cast<double>(gpu::STANDING_SPEED)) return -1.0f;
+    const glm::dvec2 way = wish / speed;
+    const Capsule self = bodyBefore(step);
+    double free = -1.0;
     for (const SensedPerson& other : step.sensed) {
-        const glm::vec2 offset = other.place - step.place_before;
-        const float ahead = glm::dot(offset, way);
-        const float reach = step.radius + other.radius;
-        const float aside_squared = std::max(glm::dot(offset, offset) - ahead * ahead, 0.0f);
-        if (ahead <= 0.0f || aside_squared >= reach * reach) continue;
-        const float gap = std::max(ahead - std::sqrt(reach * reach - aside_squared), 0.0f);
-        free = free < 0.0f ? gap : std::min(free, gap);
+        if (glm::dot(glm::dvec2(other.place) - self.middle, way) <= 0.0) continue;
+        const double gap = untilTouch(self, bodyOf(other), way);
+        if (gap >= 0.0) free = free < 0.0 ? gap : std::min(free, gap);
     }
-    return free;
+    return static_cast<float>(free);
 }
 
 }  // namespace throng::sim

@@ -8,10 +8,17 @@
 
 namespace throng::sim {
 
+/// Everybody by slot, as they were when people last decided.
+struct BodiesThere {
+    const std::vector<gpu::Body>& bodies;
+    const std::vector<glm::vec2>& axes;  ///< m: from the middles of their segments to an end
+};
+
+std::vector<glm::vec2> axesOf(const Buffers& buffers, std::uint32_t slots);
+
 /// What one person knows of its surroundings since the last decision, put into `step`.
-/// @param bodies of all slots, as they were then
-void tellSenses(const Simulation::Parts& parts, const authoring::Scene& scene,
-                const std::vector<gpu::Body>& bodies, std::uint32_t slot, FollowedStep& step);
+void tellSenses(const Simulation::Parts& parts, const authoring::Scene& scene, const BodiesThere& there,
+                std::uint32_t slot, FollowedStep& step);
 
 /// The first body in somebody's way, FollowedStep::free_ahead.
 float freeAhead(const FollowedStep& step);

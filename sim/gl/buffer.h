@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <span>
 #include <string>
@@ -65,6 +66,16 @@ class Buffer {
         std::vector<T> items(count);
         downloadBytes(std::as_writable_bytes(std::span<T>(items)), first_item * sizeof(T));
         return items;
+    }
+    /// Likewise, what lies so many bytes into each element, of elements that have more to them than that.
+    template <class T>
+    std::vector<T> downloadParts(std::size_t count, std::size_t first_element = 0, std::size_t at = 0) const {
+        const std::size_t stride = contents_->element_bytes;
+        const std::vector<std::byte> bytes = download<std::byte>(count * stride, first_element * stride);
+        std::vector<T> parts(count);
+        for (std::size_t i = 0; i < count; ++i)
+            std::memcpy(&parts[i], bytes.data() + i * stride + at, sizeof(T));
+        return parts;
     }
 
   private:

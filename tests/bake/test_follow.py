@@ -142,11 +142,25 @@ def test_a_bake_without_its_layout(throng, hall, tmp_path):
 
 
 def test_people_who_are_no_discs(throng, tmp_path):
-    visitors = {**HALL["flows"][0], "people": {"body": "adult"}}
-    layout = {**HALL, "simulation": {"duration": 2, "seed": 2}, "flows": [visitors]}
+    """Before a gate narrower than a chest is broad, shoulders turn; the tables tell which way chests point."""
+    visitors = {**HALL["flows"][0], "people": {"body": {"breadth": 0.47, "depth": 0.25}}}
+    jambs = [{"id": f"jamb {side}", "points": [[2, side * 0.2], [2, side * 4]], "thickness": 0.0} for side in (1, -1)]
+    layout = {**HALL, "walls": HALL["walls"][1:] + jambs, "events": [], "flows": [visitors]}
     (tmp_path / "layout.json").write_text(json.dumps(layout))
     throng("bake", tmp_path / "layout.json", "-o", tmp_path / "bake", "--no-gltf", "-q")
-    assert "no discs (people.body)" in throng("measure", tmp_path / "bake", "--follow", 0, expect=3).stderr
+    told = throng("measure", tmp_path / "bake", "--follow", 0, "--plots", tmp_path / "why", "--json")
+    assert json.loads(told.stdout)["furthest_off"] < 0.2
+    steps = lines(tmp_path / "why" / "follow-steps.csv")
+    aside = {step["step"]: abs(float(step["chest_x"]) * float(step["facing_y"]) -
+                               float(step["chest_y"]) * float(step["facing_x"])) for step in steps}
+    before = [step for step in steps if -4 < float(step["x_m"]) < -1]
+    within = [step for step in steps if abs(float(step["x_m"]) - 2) < 0.1]
+    assert before and max(aside[step["step"]] for step in before) < 0.2
+    assert within and min(aside[step["step"]] for step in within) > 0.4
+    turns = [line for line in lines(tmp_path / "why" / "follow.csv") if line["changed"] == "chest"]
+    assert "shoulders" in {line["rule"] for line in turns}
+    places = numpy.load(tmp_path / "bake" / "streams" / "pos.npy")
+    assert max(places[:, 0, 0]) > 4  # it has come through
 
 
 STOREYS = {"throng": 1, "name": "storeys", "simulation": {"duration": 30, "seed": 2},

@@ -34,6 +34,41 @@ class FollowTest : public GpuTest {
         addWall(scene, {-3.0f, -3.0f}, {3.0f, 3.0f}, 0.1f);
         return scene;
     }
+    /// The same with bodies that are no discs, but for some; some are deeper than broad.
+    static authoring::Scene denseBodies() {
+        authoring::Scene scene = denseCrowd();
+        for (std::size_t row = 0; row < scene.people.size(); ++row) {
+            gpu::Person& person = scene.people[row];
+            person.half_axis = row % 8 == 0 ? 0.0f : (row % 8 == 7 ? -0.3f : 0.45f) * person.radius;
+        }
+        return scene;
+    }
+    void expectThatLookingChangesNothing(const authoring::Scene& scene) {
+        sim::Simulation alone(scene, library), watched(scene, library);
+        sim::Follower follower(watched, scene, {3, 40, 77});
+        for (int i = 0; i < 61; ++i) {
+            alone.step();
+            follower.step();
+        }
+        const sim::Simulation::State expected = alone.save(), found = watched.save();
+        EXPECT_EQ(found.steps_done, expected.steps_done);
+        ASSERT_EQ(found.parts.size(), expected.parts.size());
+        for (std::size_t i = 0; i < expected.parts.size(); ++i)
+            EXPECT_TRUE(found.parts[i] == expected.parts[i]) << expected.parts[i].first;
+    }
+    /// How much is free along the way of somebody who makes for a body 3 m ahead, m; below zero: it is not in
+    /// the way.
+    float freeBefore(float aside, float heading) {
+        authoring::Scene scene = emptyScene({-10, -10}, {10, 10});
+        for (const glm::vec2 place : {glm::vec2(-3.0f, 0.0f), glm::vec2(0.0f, aside)}) {
+            gpu::Person& person = addPerson(scene, place, place, 1.3f, 0.235f);
+            person.half_axis = 0.11f;
+            person.heading = heading;
+        }
+        scene.people[0].heading = 0.0f;
+        scene.stages[0].point = {8.0f, 0.0f};
+        return follow(scene, {0}, 1).at(0).front().free_ahead;
+    }
 };
 
 /// m/s along the wish that a rule added in all.
@@ -65,18 +100,40 @@ void expectNoGaps(const FollowedStep& step, Changed changed, glm::vec2 from, glm
 }
 
 TEST_F(FollowTest, TheCrowdGoesOnAsIfNobodyLooked) {
-    const authoring::Scene scene = denseCrowd();
-    sim::Simulation alone(scene, library), watched(scene, library);
-    sim::Follower follower(watched, scene, {3, 40, 77});
-    for (int i = 0; i < 61; ++i) {
-        alone.step();
-        follower.step();
+    expectThatLookingChangesNothing(denseCrowd());
+}
+
+TEST_F(FollowTest, ACrowdOfBodiesGoesOnAsIfNobodyLooked) {
+    expectThatLookingChangesNothing(denseBodies());
+}
+
+TEST_F(FollowTest, WhatTurnsAChestAddsUpInACrushOfBodies) {
+    // A disc, somebody, and who is deeper than broad.
+    Steps told = follow(denseBodies(), {40, 3, 79}, 90);
+    ASSERT_EQ(told.size(), 3u);
+    EXPECT_TRUE(rulesIn(told.at(40), Changed::chest).empty());
+    for (const auto& [row, steps] : told)
+        for (const FollowedStep& step : steps) {
+            expectNoGaps(step, Changed::velocity, step.velocity_before, step.velocity);
+            if (row != 40) expectNoGaps(step, Changed::chest, step.chest_before, step.chest);
+            EXPECT_EQ(bodyAfter(step).thickness < static_cast<double>(step.radius) - 0.01, row != 40);
+        }
+    for (const std::uint32_t row : {3u, 79u}) {
+        const std::set<std::string> rules = rulesIn(told.at(row), Changed::chest);
+        for (const char* rule : {"shoulders", "contact"})
+            EXPECT_TRUE(rules.contains(rule)) << row << " " << rule;
+        EXPECT_FALSE(rules.contains("rounding"));
     }
-    const sim::Simulation::State expected = alone.save(), found = watched.save();
-    EXPECT_EQ(found.steps_done, expected.steps_done);
-    ASSERT_EQ(found.parts.size(), expected.parts.size());
-    for (std::size_t i = 0; i < expected.parts.size(); ++i)
-        EXPECT_TRUE(found.parts[i] == expected.parts[i]) << expected.parts[i].first;
+}
+
+TEST_F(FollowTest, WhatIsFreeAheadGoesByTheShapesOfBodies) {
+    constexpr float kQuarter = 1.5707963f;
+    EXPECT_NEAR(freeBefore(0.0f, 0.0f), 3.0f - 0.25f, 1.0e-3f);      // chest to back
+    EXPECT_NEAR(freeBefore(0.0f, kQuarter), 3.0f - 0.36f, 1.0e-3f);  // chest to shoulder
+    EXPECT_NEAR(freeBefore(0.2f, 0.0f), 3.0f - 0.25f, 1.0e-3f);      // half of it in the way
+    EXPECT_GT(freeBefore(0.4f, 0.0f), 3.0f - 0.25f);                 // a round shoulder
+    EXPECT_LT(freeBefore(0.4f, kQuarter), 0.0f);                     // past a back: discs would touch
+    EXPECT_LT(freeBefore(0.55f, 0.0f), 0.0f);
 }
 
 TEST_F(FollowTest, WhatRulesDidAddsUpInACrush) {
