@@ -120,13 +120,18 @@ Plate::Plate(const std::filesystem::path& bake, const PreviewOptions& options)
                          fmt::format("its site is {:.6g} m wide and {:.6g} m high: no picture is so narrow",
                                      extent.x, extent.y));
     height_ = static_cast<int>(height) / 2 * 2;
-    layout_.reset(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_, height_));
-    canvas_.reset(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_, height_));
-    if (cairo_surface_status(canvas_.get()) != CAIRO_STATUS_SUCCESS)
-        throw InputError(
-            bake, fmt::format("a picture of {} x {} px is more than can be drawn: ask for a smaller --width",
-                              width_, height_));
+    layout_ = makeCanvas();
     drawLayout();
+}
+
+Surface Plate::makeCanvas() const {
+    Surface canvas(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_, height_));
+    if (cairo_surface_status(canvas.get()) != CAIRO_STATUS_SUCCESS)
+        throw InputError(
+            bake_.folder,
+            fmt::format("a picture of {} x {} px is more than can be drawn: ask for a smaller --width",
+                        width_, height_));
+    return canvas;
 }
 
 int Plate::widthFor(glm::dvec2 extent) const {
@@ -357,11 +362,18 @@ void Plate::drawDensity(cairo_t* context, const io::CrowdFrame& now) const {
         }
 }
 
-void Plate::drawTrails(const io::CrowdFrame& now) {
+/// Trails are of pieces, about as long as a few pixels for who walks: finer ones would not be seen.
+std::uint32_t Plate::framesOfPiece(std::uint32_t length) const {
+    constexpr double kPiece = 6.0, kWalks = 1.3;  // px, m/s
+    const auto frames = static_cast<std::uint32_t>(kPiece / (kWalks * scale_) * bake_.fps);
+    return std::max(std::clamp(frames, length / 24, std::max(length / 8, length / 24)), 1u);
+}
+
+void Plate::drawTrails(cairo_surface_t* canvas, const io::CrowdFrame& now) {
     const std::uint32_t length = trailFrames(bake_, options_);
-    const std::uint32_t stride = std::max(1u, length / 24);
+    const std::uint32_t stride = framesOfPiece(length);
     if (length == 0) return;
-    Marks marks(canvas_.get());
+    Marks marks(canvas);
     io::CrowdFrame later = now;
     const auto width = static_cast<float>(std::max(1.0, 0.10 * scale_));
     for (std::uint32_t back = stride; back <= length && back <= now.index(); back += stride) {
@@ -421,9 +433,9 @@ double Plate::drawBody(Marks& marks, glm::dvec2 at, const Capsule& body, double 
     return thickness;
 }
 
-void Plate::drawPeople(const io::CrowdFrame& now) const {
+void Plate::drawPeople(cairo_surface_t* canvas, const io::CrowdFrame& now) const {
     constexpr Colour kNose = colourFromHex(0xffffff);
-    Marks marks(canvas_.get());
+    Marks marks(canvas);
     for (std::size_t row = 0; row < bake_.agents; ++row) {
         if (!isShown(now, row)) continue;
         const glm::dvec2 at = toPixel(now.place(row).x, now.place(row).y);
@@ -470,20 +482,19 @@ std::uint32_t Plate::busiestFrame() {
     return best;
 }
 
-cairo_surface_t* Plate::draw(std::uint32_t frame) {
+void Plate::draw(std::uint32_t frame, cairo_surface_t* canvas) {
     const io::CrowdFrame now = crowd_.frame(frame);
-    const Context scope(canvas_.get());
+    const Context scope(canvas);
     cairo_t* context = scope.context;
     cairo_set_source_surface(context, layout_.get(), 0.0, 0.0);
     cairo_paint(context);
     if (options_.density) drawDensity(context, now);
-    drawTrails(now);
+    drawTrails(canvas, now);
     drawGates(context, frame);
     traffic_.drawFrame(context, view(), frame);
-    drawPeople(now);
+    drawPeople(canvas, now);
     drawCaption(context, now);
-    cairo_surface_flush(canvas_.get());
-    return canvas_.get();
+    cairo_surface_flush(canvas);
 }
 
 }  // namespace throng::analysis

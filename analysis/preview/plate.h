@@ -20,6 +20,11 @@ namespace throng::analysis {
 
 class Marks;
 
+struct SurfaceFree {
+    void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
+};
+using Surface = std::unique_ptr<cairo_surface_t, SurfaceFree>;
+
 /// Draws frames of one bake. What does not move is drawn once.
 class Plate {
   public:
@@ -33,15 +38,11 @@ class Plate {
     /// The frame with the most people (looked for in steps of a second).
     std::uint32_t busiestFrame();
 
-    /// The surface stays valid until the next call.
-    cairo_surface_t* draw(std::uint32_t frame);
+    /// For draw(): as large as the plate.
+    Surface makeCanvas() const;
+    void draw(std::uint32_t frame, cairo_surface_t* canvas);
 
   private:
-    struct SurfaceFree {
-        void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
-    };
-    using Surface = std::unique_ptr<cairo_surface_t, SurfaceFree>;
-
     glm::dvec2 toPixel(double x, double y) const;
     void chooseLevel();
     bool isShown(std::size_t level) const { return !level_ || *level_ == level; }
@@ -53,10 +54,11 @@ class Plate {
     void drawWall(cairo_t* context, const authoring::Wall& wall) const;
     void drawGates(cairo_t* context, std::uint32_t frame) const;
     void drawDensity(cairo_t* context, const io::CrowdFrame& now) const;
-    void drawTrails(const io::CrowdFrame& now);
+    std::uint32_t framesOfPiece(std::uint32_t length) const;
+    void drawTrails(cairo_surface_t* canvas, const io::CrowdFrame& now);
     /// @returns how far it reaches ahead, px
     double drawBody(Marks& marks, glm::dvec2 at, const Capsule& body, double size) const;
-    void drawPeople(const io::CrowdFrame& now) const;
+    void drawPeople(cairo_surface_t* canvas, const io::CrowdFrame& now) const;
     void drawCaption(cairo_t* context, const io::CrowdFrame& now) const;
     void drawScaleBar(cairo_t* context) const;
     /// px, even: video encoders want that.
@@ -86,7 +88,7 @@ class Plate {
     std::size_t left_out_ = 0;  // groups, where there are thousands
     int width_ = 0, height_ = 0;
     double scale_ = 1.0;  // px per m
-    Surface layout_, canvas_;
+    Surface layout_;
 };
 
 }  // namespace throng::analysis

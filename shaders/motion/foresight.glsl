@@ -6,9 +6,20 @@
 /// s: by how much longer decisions stand than those that the rule's numbers were found with.
 float laterThanUsual() { return max(parameters.decision_seconds - FORESIGHT_USUAL, 0.0); }
 
+/// The coarse map of jams knows of no jamb: its slope leads straight to where there is room, and who stands at a jamb
+/// walks into it, the better the worse the jam is. So who strides and does not get on in a narrow passage, or close
+/// before one, goes by the free way, round the jamb. Who has no body to stride with presses through.
+bool heedsJams(Walker walker, bool narrow) {
+#ifdef BODIES
+    return !narrow || walker.half_axis == 0.0 || walker.nervousness < ROUTES_ROUND_JAMS_STUCK;
+#else
+    return true;
+#endif
+}
+
 /// The way from where one will be, or from where one is, if there might be a wall in between: beyond that, the way is
-/// longer or shorter by more than what was walked. Jams are heeded as they are.
-RouteAhead wayAhead(Stage stage, vec2 position, vec2 velocity, uint sensed, float nervousness) {
+/// longer or shorter by more than what was walked. Jams are heeded as they are, if at all.
+RouteAhead wayAhead(Stage stage, vec2 position, vec2 velocity, uint sensed, float nervousness, bool heeds_jams) {
     RouteAhead ahead = freeRouteAhead(stage, position);
     float free = 1.0 - smoothstep(FORESIGHT_FREELY, FORESIGHT_NO_MORE, float(sensed));
     if (FORESIGHT_ENABLED && free > 0.0) {  // in a crowd, and so for most, one look will do
@@ -20,5 +31,5 @@ RouteAhead wayAhead(Stage stage, vec2 position, vec2 velocity, uint sensed, floa
             ahead.remaining += laterThanUsual() * free * (1.0 - nervousness) * length(velocity);
         }
     }
-    return heedingJams(stage, position, ahead);
+    return heeds_jams ? heedingJams(stage, position, ahead) : ahead;
 }

@@ -62,10 +62,10 @@ void main() {
     vec2 position = bodies[slot].position;
     Walker walker = walkers[slot];
     Stage stage = stageOf(walker.stage, ticketOf(walker), position);
-    RouteAhead ahead = wayAhead(stage, position, bodies[slot].velocity,
-                                neighbour_counts[slot], walker.nervousness);
-
     bool narrow = (touch_words[slot] & TOUCH_IN_NARROWS) != 0u;
+    RouteAhead ahead = wayAhead(stage, position, bodies[slot].velocity, neighbour_counts[slot], walker.nervousness,
+                                heedsJams(walker, narrow));
+
     walkers[slot].way_through = packSnorm2x16(narrow ? wayThrough(stage, position, ahead) : ahead.direction);
 
 #ifdef PARTIES

@@ -50,3 +50,40 @@ def test_who_waits_before_a_door_looks_at_it(squeeze):
     before = there & (numpy.linalg.norm(to_door, axis=-1) < NEAR) & (to_door[..., 0] > 0)
     away = ((headings * to_door).sum(axis=-1) < 0) & before
     assert away.sum() < 0.07 * before.sum()
+
+
+# A corridor of 1.8 m, closed behind who comes in, and a door of 0.7 m at its end. People have the bodies of adults.
+CORRIDOR = {
+    "throng": 1,
+    "simulation": {"duration": 135, "seed": 1},
+    "areas": [{"id": "in", "polygon": [[-20.6, -0.6], [-18.6, -0.6], [-18.6, 0.6], [-20.6, 0.6]]},
+              {"id": "out", "polygon": [[4, -2], [6, -2], [6, 2], [4, 2]]}],
+    "walls": [{"points": [[0, 0.95], [-21, 0.95], [-21, -0.95], [0, -0.95]], "thickness": 0.1},
+              {"points": [[0, 0.35], [0, 0.95]], "thickness": 0}, {"points": [[0, -0.35], [0, -0.95]], "thickness": 0}],
+    "flows": [{"id": "walkers", "from": "in", "to": "out", "count": 148, "end": 55,
+               "people": {"body": "adult", "speed": {"normal": [1.55, 0.18], "min": 1, "max": 2.1}}}],
+}
+
+
+@pytest.fixture(scope="module")
+def moments_out(throng, once):
+    """moments_out(setting): when each of them is first beyond the door, s, in order."""
+    def run(name, *words):
+        def make(folder):
+            (folder / "corridor.json").write_text(json.dumps(CORRIDOR))
+            throng("bake", folder / "corridor.json", "-o", folder / "bake", "-q", "--no-gltf", *words)
+
+        beyond = numpy.load(once(name, make) / "bake" / "streams" / "pos.npy")[..., 0] > 0
+        return numpy.sort(beyond.argmax(axis=0)[beyond.any(axis=0)]) / 24
+
+    return run
+
+
+def test_who_stands_at_a_jamb_goes_round_it(moments_out):
+    """In the experiment all 148 were out, 1.6 a second; with seeds 1 to 3 it is 1.27 here, 1.21 at the least, and the
+    longest that nobody comes out is 3.8 s. Who heeds jams even at a jamb walks into it (1.10)."""
+    out = moments_out("corridor")
+    assert len(out) == 148 and 147 / (out[-1] - out[0]) > 1.18
+    assert numpy.diff(out).max() < 5
+    stuck = moments_out("corridor heeding jams", "--set", "motion.routes_round_jams.stuck=1")
+    assert len(stuck) < 145
