@@ -12,7 +12,7 @@ NAMES = {"body": "Bodies", "disc": "Discs"}
 
 
 def bodies(runs):
-    names, seeds = (["kretz-080"] if runs.quick else []), runs.seeds(3)
+    names, seeds = (["kretz-080"] if runs.quick else []), runs.seeds(8)
     tables = []
     for kind, people in body_flows.PEOPLE.items():
 
