@@ -31,11 +31,18 @@ vec2 besideParty(Body self, uint first, uint size, vec2 way) {
     return near - COMPANY_SEEING_EACH_OTHER * turning * self.velocity + COMPANY_LEAVING_ROOM * apart;
 }
 
-/// m/s^2. Who slows down for its place lets go of its company.
+/// 0 to 1: how much of being held back by its company somebody lets be. Two parties between each other, each with
+/// somebody ahead of both who waits, would stand for good.
+float lettingGoOf(Walker walker) {
+    return smoothstep(WAITING_FOR_COMPANY_GIVES_UP, WAITING_FOR_COMPANY_GIVEN_UP, walker.nervousness);
+}
+
+/// m/s^2. Who slows down for its place lets go of its company, and who does not get on is not held back by it.
 vec2 company(Body self, Walker walker, vec2 way, float speed) {
     if (!COMPANY_ENABLED || walker.party_size <= 1u || speed <= STANDING_SPEED) return vec2(0.0);
-    return besideParty(self, walker.party_first, walker.party_size, way) *
-           smoothstep(0.0, COMPANY_LETTING_GO, speed / walker.preferred_speed);
+    vec2 beside = besideParty(self, walker.party_first, walker.party_size, way) *
+                  smoothstep(0.0, COMPANY_LETTING_GO, speed / walker.preferred_speed);
+    return beside - way * (min(dot(beside, way), 0.0) * lettingGoOf(walker));
 }
 
 /// m/s^2: of the room that others want, what somebody makes who waits for its company. It makes way to a side, but is

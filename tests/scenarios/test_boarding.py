@@ -107,8 +107,12 @@ def test_a_tram_stands_as_long_as_it_has_to_and_no_longer_than_it_may(throng, tm
     assert (numpy.diff(right) < 0).sum() / FPS == pytest.approx(2.0, abs=0.1)
 
 
-def test_nobody_waits_for_company_in_a_door(throng, tmp_path):
+@pytest.mark.parametrize("seed", [3, 4, 6])
+def test_nobody_waits_for_company_for_good(throng, tmp_path, seed):
+    """Neither in a door nor beside the tram, where parties that have got off stand between each other (there, 11 of 80
+    did with seed 3, and 9 with seed 6, as long as company held back whoever does not get on)."""
     layout = stop(75, board=60, alight=20, dwell=(10, 50))
+    layout["simulation"]["seed"] = seed
     for flow in layout["flows"]:
         flow["people"] = {"body": "adult", "groups": "leisure"}
     baked = Baked(throng, bake(throng, tmp_path / "company", layout))
