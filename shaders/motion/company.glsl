@@ -32,12 +32,17 @@ vec2 besideParty(Body self, uint first, uint size, vec2 way) {
 }
 
 /// 0 to 1: how much of being held back by its company somebody lets be. Two parties between each other, each with
-/// somebody ahead of both who waits, would stand for good.
+/// somebody ahead of both who waits, would stand for good where people stride and do not press.
 float lettingGoOf(Walker walker) {
+#ifdef BODIES
+    if (walker.half_axis == 0.0) return 0.0;  // it presses through
     return smoothstep(WAITING_FOR_COMPANY_GIVES_UP, WAITING_FOR_COMPANY_GIVEN_UP, walker.nervousness);
+#else
+    return 0.0;
+#endif
 }
 
-/// m/s^2. Who slows down for its place lets go of its company, and who does not get on is not held back by it.
+/// m/s^2. Who slows down for its place lets go of its company, and who strides and does not get on is not held back by it.
 vec2 company(Body self, Walker walker, vec2 way, float speed) {
     if (!COMPANY_ENABLED || walker.party_size <= 1u || speed <= STANDING_SPEED) return vec2(0.0);
     vec2 beside = besideParty(self, walker.party_first, walker.party_size, way) *
