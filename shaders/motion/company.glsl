@@ -42,7 +42,7 @@ float lettingGoOf(Walker walker) {
 #endif
 }
 
-/// m/s^2. Who slows down for its place lets go of its company, and who strides and does not get on is not held back by it.
+/// m/s^2. Who slows down for its place lets go of its company; who strides and does not get on is not held back by it.
 vec2 company(Body self, Walker walker, vec2 way, float speed) {
     if (!COMPANY_ENABLED || walker.party_size <= 1u || speed <= STANDING_SPEED) return vec2(0.0);
     vec2 beside = besideParty(self, walker.party_first, walker.party_size, way) *
