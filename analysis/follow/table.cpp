@@ -15,10 +15,9 @@ namespace {
 constexpr const char* kInfluences =
     "row,step,time_s,pass,rule,changed,before_x,before_y,after_x,after_y,along_wish,left_of_wish\n";
 constexpr const char* kSteps =
-    "row,step,time_s,decides,doing,stage,goal_x_m,goal_y_m,x_m,y_m,facing_x,facing_y,chest_x,chest_y,wish_x_"
-    "m_s,wish_y_m_s,"
-    "velocity_x_m_s,velocity_y_m_s,along_wish_m_s,pace_m_s,backward,nervousness,sensed,nearest_row,"
-    "nearest_gap_m,touch_row,touch_s,free_ahead_m,wall_gap_m,touching,in_narrows\n";
+    "row,step,time_s,decides,doing,stage,goal_x_m,goal_y_m,x_m,y_m,facing_x,facing_y,chest_x,chest_y,"
+    "wish_x_m_s,wish_y_m_s,velocity_x_m_s,velocity_y_m_s,along_wish_m_s,pace_m_s,backward,nervousness,"
+    "sensed,nearest_row,nearest_gap_m,touch_row,touch_s,free_ahead_m,wall_gap_m,touching,in_narrows\n";
 
 constexpr const char* kWords[] = {"walking", "stopping", "queueing", "arrived"};
 constexpr const char* kChanged[] = {"wish", "velocity", "heading", "chest"};

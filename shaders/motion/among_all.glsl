@@ -12,7 +12,7 @@ uint neighbourKey(uint slot, uint nth) { return neighbours[nth * slot_capacity +
 /// m/s: how fast somebody with a body wants to stride behind those ahead, if it may.
 /// @param strides receives whether it does: everybody sensed goes its way, or through the same narrow passage
 float paceStridingAmongAll(Body self, Walker walker, vec2 way, float speed, uint slot, out bool strides) {
-    strides = ROOM_TO_STRIDE_ENABLED && walker.half_axis != 0.0 && speed > STANDING_SPEED;
+    strides = ROOM_TO_STRIDE_ENABLED && hasBody(walker) && speed > STANDING_SPEED;
     // Two who stand on both sides of a door walk towards each other first, and yet go one way (climbsInTurn).
     bool is_in_narrows = (touch_words[slot] & TOUCH_IN_NARROWS) != 0u;
     float pace = speed;

@@ -7,6 +7,8 @@
 // Needs the block States.
 #ifdef PARTIES
 #include "shaders/charts/way_between.glsl"
+#include "shaders/shared/walker.glsl"
+#include "shaders/motion/letting_company_be.glsl"
 
 /// m/s^2: what walking with those from row `first` on makes of somebody's way.
 vec2 besideParty(Body self, uint first, uint size, vec2 way) {
@@ -33,14 +35,7 @@ vec2 besideParty(Body self, uint first, uint size, vec2 way) {
 
 /// 0 to 1: how much of being held back by its company somebody lets be. Two parties between each other, each with
 /// somebody ahead of both who waits, would stand for good where people stride and do not press.
-float lettingGoOf(Walker walker) {
-#ifdef BODIES
-    if (walker.half_axis == 0.0) return 0.0;  // it presses through
-    return smoothstep(WAITING_FOR_COMPANY_GIVES_UP, WAITING_FOR_COMPANY_GIVEN_UP, walker.nervousness);
-#else
-    return 0.0;
-#endif
-}
+float lettingGoOf(Walker walker) { return hasBody(walker) ? lettingCompanyBe(walker.nervousness) : 0.0; }
 
 /// m/s^2. Who slows down for its place lets go of its company; who strides and does not get on is not held back by it.
 vec2 company(Body self, Walker walker, vec2 way, float speed) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Foresight: legs take their time to answer (drive), so people turn into a bend and slow down before a place as long
 // before they are there. Who went by where it is would swing out after every corner, and walk past its goal and back.
-// Needs shaders/routes/route.glsl.
+// Needs shaders/routes/route.glsl and shaders/shared/walker.glsl.
 
 /// s: by how much longer decisions stand than those that the rule's numbers were found with.
 float laterThanUsual() { return max(parameters.decision_seconds - FORESIGHT_USUAL, 0.0); }
@@ -10,11 +10,7 @@ float laterThanUsual() { return max(parameters.decision_seconds - FORESIGHT_USUA
 /// walks into it, the better the worse the jam is. So who strides and does not get on in a narrow passage, or close
 /// before one, goes by the free way, round the jamb. Who has no body to stride with presses through.
 bool heedsJams(Walker walker, bool narrow) {
-#ifdef BODIES
-    return !narrow || walker.half_axis == 0.0 || walker.nervousness < ROUTES_ROUND_JAMS_STUCK;
-#else
-    return true;
-#endif
+    return !(narrow && hasBody(walker)) || walker.nervousness < ROUTES_ROUND_JAMS_STUCK;
 }
 
 /// The way from where one will be, or from where one is, if there might be a wall in between: beyond that, the way is

@@ -3,6 +3,7 @@
 // company walks towards it as much as to its goal, and where two ways are as good, a party takes the one of its first.
 // Walking abreast is another rule (shaders/motion/company.glsl). Needs the block States and shaders/routes/route.glsl.
 #include "shaders/charts/way_between.glsl"
+#include "shaders/motion/letting_company_be.glsl"
 
 /// Whether one's own way is longer than it would be straight over to a place and on from there.
 bool isBehindWall(Stage stage, float remaining, vec2 position, vec2 place) {
@@ -23,7 +24,7 @@ vec2 towardsParty(uint row, Walker walker, Stage stage, vec2 position, RouteAhea
     if (distance <= WAITING_FOR_COMPANY_LOST || distance > NOBODY) return direction;
     if (isBehindWall(stage, ahead.remaining, position, position + nearest)) return direction;
     float pull = smoothstep(WAITING_FOR_COMPANY_LOST, WAITING_FOR_COMPANY_QUITE_LOST, distance) *
-                 (1.0 - smoothstep(WAITING_FOR_COMPANY_GIVES_UP, WAITING_FOR_COMPANY_GIVEN_UP, walker.nervousness));
+                 (1.0 - lettingCompanyBe(walker.nervousness));
     vec2 result = direction + pull * nearest / distance;
     float size = length(result);
     return size > 0.3 ? result / size : direction;  // shorter: the two pull against each other

@@ -1,6 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // What walkers of only some scenes have a word for, of any scene's.
 
+/// Whether its body is no disc: it strides, and does not press.
+bool hasBody(Walker walker) {
+#ifdef BODIES
+    return walker.half_axis != 0.0;
+#else
+    return false;
+#endif
+}
+
 /// s: of free way kept to those walked behind.
 float ownHeadwayOf(Walker walker) {
 #ifdef HEADWAYS

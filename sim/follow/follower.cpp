@@ -165,7 +165,8 @@ class Follower::Eye {
         for (auto& [row, watched] : watched_)
             watched.slot.reset();
         const auto walkers = parts_.buffers.walkers.downloadParts<gpu::Walker>(live);
-        axes_ = axesOf(parts_.buffers, live);
+        if (parts_.buffers.hasBodies())
+            chests_ = parts_.buffers.chests.download<gpu::Chest>(scene_.people.size());
         for (std::uint32_t slot = 0; slot < live; ++slot) {
             const auto found = watched_.find(bodies_[slot].row);
             if (found == watched_.end() || (walkers[slot].flags & gpu::WALKER_IS_IMAGE) != 0) continue;
@@ -175,7 +176,7 @@ class Follower::Eye {
             slots_ = slot + 1;
             present_[found->first] = &found->second;
             found->second.now.place_before = bodies_[slot].position;  // beyond a seam, if it walked over one
-            tellSenses(parts_, scene_, {bodies_, axes_}, slot, found->second.now);
+            tellSenses(parts_, scene_, {bodies_, chests_}, slot, found->second.now);
         }
     }
 
@@ -308,10 +309,10 @@ class Follower::Eye {
     const authoring::Scene& scene_;
     std::vector<std::uint32_t> rows_;
     Ladders ladders_;
-    std::vector<gpu::Body> bodies_;  // of all slots, as of the last decision
-    std::vector<glm::vec2> axes_;    // likewise
-    std::uint32_t slots_ = 0;        // up to the last one that is followed
-    std::size_t left_ = 0;           // people who are no more
+    std::vector<gpu::Body> bodies_;   // of all slots, as of the last decision
+    std::vector<gpu::Chest> chests_;  // likewise, of all rows; none where all are discs
+    std::uint32_t slots_ = 0;         // up to the last one that is followed
+    std::size_t left_ = 0;            // people who are no more
     std::map<std::uint32_t, Watched> watched_;
     std::map<std::uint32_t, Watched*> present_;  // in this step
 };

@@ -15,8 +15,11 @@ namespace {
 
 Capsule bodyIn(const BodiesThere& there, std::uint32_t slot) {
     const gpu::Body& body = there.bodies[slot];
-    const glm::dvec2 axis = there.axes[slot];
-    return {body.position, axis, static_cast<double>(body.radius) - glm::length(axis)};
+    const double radius = double{body.radius};
+    if (there.chests.empty()) return {body.position, glm::dvec2(0.0), radius};
+    const gpu::Chest& chest = there.chests[body.row];
+    const glm::dvec2 facing(std::cos(double{chest.angle}), std::sin(double{chest.angle}));
+    return capsuleOf(body.position, facing, radius, double{chest.half_axis});
 }
 
 Capsule asBody(const gpu::WallSegment& wall) {
@@ -56,13 +59,6 @@ std::vector<std::uint32_t> wallsNear(const Simulation::Parts& parts, glm::vec2 p
 
 }  // namespace
 
-std::vector<glm::vec2> axesOf(const Buffers& buffers, std::uint32_t slots) {
-    if (!buffers.hasBodies()) return std::vector<glm::vec2>(slots, glm::vec2(0.0f));
-    // The last of what there is of a walker (shaders/shared/simulation_types.h).
-    const std::size_t at = buffers.walkers.contents()->element_bytes - sizeof(glm::vec2);
-    return buffers.walkers.downloadParts<glm::vec2>(slots, 0, at);
-}
-
 void tellSenses(const Simulation::Parts& parts, const authoring::Scene& scene, const BodiesThere& there,
                 std::uint32_t slot, FollowedStep& step) {
     const Buffers& buffers = parts.buffers;
@@ -83,7 +79,7 @@ void tellSenses(const Simulation::Parts& parts, const authoring::Scene& scene, c
             const gpu::Body& other = there.bodies[key];
             const Capsule its = bodyIn(there, key);
             const glm::dvec2 relative = self.velocity - other.velocity;
-            step.sensed.push_back({other.row, other.position, other.radius, there.axes[key],
+            step.sensed.push_back({other.row, other.position, other.radius, its.axis,
                                    static_cast<float>(freeBetween(body, its)),
                                    static_cast<float>(untilTouch(body, its, relative))});
         }

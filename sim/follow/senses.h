@@ -11,10 +11,8 @@ namespace throng::sim {
 /// Everybody by slot, as they were when people last decided.
 struct BodiesThere {
     const std::vector<gpu::Body>& bodies;
-    const std::vector<glm::vec2>& axes;  ///< m: from the middles of their segments to an end
+    const std::vector<gpu::Chest>& chests;  ///< by row; none where all are discs
 };
-
-std::vector<glm::vec2> axesOf(const Buffers& buffers, std::uint32_t slots);
 
 /// What one person knows of its surroundings since the last decision, put into `step`.
 void tellSenses(const Simulation::Parts& parts, const authoring::Scene& scene, const BodiesThere& there,

@@ -1,9 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """A stream that presses through a door not much wider than a body gets out where people take turns."""
 import json
+import pathlib
+import sys
 
 import numpy
 import pytest
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+import body_flows  # noqa: E402
 
 SQUEEZE = {
     "throng": 1,
@@ -52,17 +57,8 @@ def test_who_waits_before_a_door_looks_at_it(squeeze):
     assert away.sum() < 0.07 * before.sum()
 
 
-# A corridor of 1.8 m, closed behind who comes in, and a door of 0.7 m at its end. People have the bodies of adults.
-CORRIDOR = {
-    "throng": 1,
-    "simulation": {"duration": 135, "seed": 1},
-    "areas": [{"id": "in", "polygon": [[-20.6, -0.6], [-18.6, -0.6], [-18.6, 0.6], [-20.6, 0.6]]},
-              {"id": "out", "polygon": [[4, -2], [6, -2], [6, 2], [4, 2]]}],
-    "walls": [{"points": [[0, 0.95], [-21, 0.95], [-21, -0.95], [0, -0.95]], "thickness": 0.1},
-              {"points": [[0, 0.35], [0, 0.95]], "thickness": 0}, {"points": [[0, -0.35], [0, -0.95]], "thickness": 0}],
-    "flows": [{"id": "walkers", "from": "in", "to": "out", "count": 148, "end": 55,
-               "people": {"body": "adult", "speed": {"normal": [1.55, 0.18], "min": 1, "max": 2.1}}}],
-}
+CORRIDOR = body_flows.corridor_with_door(body_flows.PEOPLE["body"])  # of 1.8 m; the door of 0.7 m
+CORRIDOR["simulation"].update(duration=135, seed=1)
 
 
 @pytest.fixture(scope="module")
