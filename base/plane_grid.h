@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <utility>
 #include <vector>
 
 namespace throng {
@@ -70,15 +71,38 @@ class PlaneGrid {
     template <class Visit>
     void near(glm::dvec2 place, double reach, Visit&& visit) const {
         const int x0 = column(place.x - reach), x1 = column(place.x + reach);
-        for (int y = line(place.y - reach); y <= line(place.y + reach); ++y) {
-            const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_);
-            for (std::uint32_t i = starts_[first + static_cast<std::size_t>(x0)];
-                 i < starts_[first + static_cast<std::size_t>(x1) + 1]; ++i)
-                visit(items_[i]);
+        for (int y = line(place.y - reach); y <= line(place.y + reach); ++y)
+            visitCells(y, x0, x1, visit);
+    }
+
+    /// Calls visit(index) for all within `reach` of the straight line between two places, and for some
+    /// further away.
+    template <class Visit>
+    void nearSegment(glm::dvec2 from, glm::dvec2 to, double reach, Visit&& visit) const {
+        if (from.y > to.y) std::swap(from, to);
+        const double rise = to.y - from.y, hair = 1.0e-6 * cell_;
+        for (int y = line(from.y - reach); y <= line(to.y + reach); ++y) {
+            // What of it comes near this line of cells, as a share; the first and the last hold all beyond
+            // them.
+            const double below = minimum_.y + y * cell_ - reach - hair - from.y;
+            const double above = below + cell_ + 2.0 * (reach + hair);
+            const double first = y > 0 && rise > 0.0 ? std::clamp(below / rise, 0.0, 1.0) : 0.0;
+            const double last = y + 1 < height_ && rise > 0.0 ? std::clamp(above / rise, 0.0, 1.0) : 1.0;
+            const double x0 = std::lerp(from.x, to.x, first), x1 = std::lerp(from.x, to.x, last);
+            visitCells(y, column(std::min(x0, x1) - reach - hair), column(std::max(x0, x1) + reach + hair),
+                       visit);
         }
     }
 
   private:
+    template <class Visit>
+    void visitCells(int y, int x0, int x1, Visit&& visit) const {
+        const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_);
+        for (std::uint32_t i = starts_[first + static_cast<std::size_t>(x0)];
+             i < starts_[first + static_cast<std::size_t>(x1) + 1]; ++i)
+            visit(items_[i]);
+    }
+
     int column(double x) const { return clamped((x - minimum_.x) / cell_, width_); }
     int line(double y) const { return clamped((y - minimum_.y) / cell_, height_); }
     /// What lies outside, however far, belongs to the cells at the edge.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <future>
 #include <memory>
 #include <stdexcept>
 
@@ -31,9 +32,10 @@ struct ReportOptions {
 };
 
 std::string pageOf(const fs::path& folder) {
-    io::CrowdReader crowd(io::loadBake(folder));
+    io::CrowdReader crowd(io::loadBake(folder)), played(crowd.bake());
+    auto frames = std::async(std::launch::async, [&] { return analysis::framesOfReport(played); });
     const auto [measured, missed] = judgeBake(crowd, {});
-    return analysis::bakeReport(crowd, measured, missed);
+    return analysis::bakeReport(crowd, frames.get(), measured, missed);
 }
 
 std::string keyed(const QueryResult& about, const std::string& key) {

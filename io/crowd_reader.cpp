@@ -10,14 +10,10 @@
 
 namespace throng::io {
 
-std::span<const float> CrowdFrame::operator[](Stream stream) const {
-    std::vector<float>& values = held_->values[stream];
-    if (values.empty()) {
-        std::vector<float> read(rows() * kComponents);
-        held_->streams[stream].readFrame(held_->index, read);
-        values = std::move(read);
-    }
-    return values;
+std::span<const float> CrowdFrame::read(Stream stream) const {
+    std::vector<float> values(rows() * kComponents);
+    held_->streams[stream].readFrame(held_->index, values);
+    return held_->values[stream] = std::move(values);
 }
 
 Capsule CrowdFrame::body(std::size_t row, const AgentRow& person) const {

@@ -19,7 +19,10 @@ class CrowdFrame {
     std::uint32_t index() const { return held_->index; }
     std::size_t rows() const { return held_->streams.rows(); }
     /// rows x 3 values. Throws InputError where the bake has no such stream, or it cannot be read.
-    std::span<const float> operator[](Stream stream) const;
+    std::span<const float> operator[](Stream stream) const {
+        const std::vector<float>& values = held_->values[stream];
+        return values.empty() ? read(stream) : values;
+    }
 
     float activity(std::size_t row) const { return (*this)[Stream::state][row * kComponents]; }
     bool isThere(std::size_t row) const { return activity(row) > 0.5f; }
@@ -43,6 +46,7 @@ class CrowdFrame {
         std::uint32_t index = 0;
         PerStream<std::vector<float>> values;  ///< empty until they are asked for
     };
+    std::span<const float> read(Stream stream) const;
     explicit CrowdFrame(std::shared_ptr<Held> held) : held_(std::move(held)) {}
     glm::dvec2 inPlane(Stream stream, std::size_t row) const {
         const auto values = rowOf((*this)[stream], row);

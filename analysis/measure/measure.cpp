@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "analysis/measure/measure.h"
 
+#include <algorithm>
+#include <cmath>
 #include <deque>
+#include <future>
 #include <glm/geometric.hpp>
-#include <map>
 #include <numbers>
 
 #include "analysis/between_rows.h"
 #include "analysis/measure/head_watch.h"
 #include "analysis/measure/histogram.h"
+#include "analysis/measure/mean.h"
+#include "analysis/measure/nearness.h"
+#include "analysis/measure/present.h"
 #include "analysis/measure/vehicle_watch.h"
-#include "analysis/measure/voronoi_density.h"
 #include "analysis/stuck.h"
-#include "base/activities.h"
-#include "base/plane_grid.h"
+#include "base/storeys.h"
 #include "io/storeys.h"
 #include "recording/wall_watch.h"
 #include "shaders/shared/walking.h"
@@ -21,7 +24,6 @@
 namespace throng::analysis {
 namespace {
 
-constexpr double kOverlap = 0.01;     // share of the sum of radii from which a pair counts
 constexpr std::size_t kHistory = 4;   // frames, for the jerk
 constexpr double kBesideLinks = 0.3;  // m: railings stand less far from a link's width
 
@@ -36,7 +38,7 @@ Spread spreadOf(const Histogram& histogram) {
     return {histogram.percentile(0.5), histogram.percentile(0.99), histogram.worst()};
 }
 
-/// Goes through a bake frame by frame; each observe...() is one family of figures.
+/// How everybody moves, frame by frame; each observe...() is one family of figures.
 class Measurer {
   public:
     Measurer(io::CrowdReader& crowd, const MeasureOptions& options)
@@ -45,31 +47,22 @@ class Measurer {
           options_(options),
           rows_(crowd.people()),
           walls_(watchOf(bake_)),
-          grid_(bake_.minimum, bake_.maximum, 1.0, cellsFor(rows_.size())),
           dt_(1.0 / bake_.fps),
           stuck_(crowd),
-          between_rows_(bake_),
+          present_(crowd),
           way_(rows_.size(), 0.0),
           effort_(rows_.size(), 0.0),
           start_(rows_.size()),
           straight_(rows_.size(), 0.0),
-          crossings_(bake_.links.size()) {
-        for (const io::AgentRow& row : rows_)
-            largest_radius_ = std::max(largest_radius_, crowd.mostSize() * row.reach());
-    }
+          crossings_(bake_.links.size()) {}
 
     Measurement run() {
         for (std::uint32_t frame = 0; frame < bake_.frames && !rows_.empty(); ++frame) {
             history_.push_front(crowd_.frame(frame));
             if (history_.size() > kHistory) history_.pop_back();
-            gatherPresent();
+            present_.gather(now());
             observeEnds(frame);
-            observeOverlaps(frame);
             observeSteps(frame);
-            if (frame % static_cast<std::uint32_t>(std::max(1.0, std::round(bake_.fps))) == 0) {
-                observeLanes();
-                observeDensity();
-            }
             stuck_.look(now());
         }
         account();
@@ -90,54 +83,6 @@ class Measurer {
         return (before(frames_ago).place(row) - before(frames_ago + 1).place(row)) / dt_;
     }
 
-    void gatherPresent() {
-        present_.clear();
-        places_.clear();
-        bodies_.clear();
-        heights_.clear();
-        for (std::uint32_t row = 0; row < rows_.size(); ++row)
-            if (now().isThere(row) && !hasSeat(now().activity(row)) &&
-                !between_rows_.has(now().place(row), now().height(row))) {
-                present_.push_back(row);
-                places_.push_back(now().place(row));
-                bodies_.push_back(now().body(row, rows_[row]));
-                heights_.push_back(bake_.hasStoreys() ? now().height(row) : 0.0);
-            }
-        grid_.sort(places_);
-    }
-
-    /// Of those present, as the next. m
-    double reachOf(std::size_t i) const { return bodies_[i].thickness + glm::length(bodies_[i].axis); }
-    bool isGiven(std::size_t i) const { return rows_[present_[i]].is_given; }
-
-    void observeOverlaps(std::uint32_t frame) {
-        std::uint64_t pairs = 0, given_pairs = 0;
-        for (std::uint32_t i = 0; i < present_.size(); ++i) {
-            grid_.near(places_[i], reachOf(i) + largest_radius_, [&](std::uint32_t j) {
-                if (j <= i || !areOnOneGround(heights_[i], heights_[j])) return;
-                const double depth = overlapOf(bodies_[i], bodies_[j]);
-                const bool theirs = isGiven(i) || isGiven(j);
-                double& deepest = theirs ? given_.deepest_overlap_percent : result_.deepest_overlap_percent;
-                deepest = std::max(deepest, 100.0 * depth);
-                (theirs ? given_pairs : pairs) += depth > kOverlap ? 1 : 0;
-            });
-        }
-        result_.overlaps.emplace_back(frame * dt_, static_cast<double>(pairs));
-        std::size_t given = 0;
-        for (std::size_t i = 0; i < present_.size(); ++i)
-            given += isGiven(i) ? 1 : 0;
-        if (given > 0) {
-            given_sum_ += 100.0 * static_cast<double>(given_pairs) / static_cast<double>(given);
-            ++given_frames_;
-        }
-        const std::size_t others = present_.size() - given;
-        if (others == 0) return;
-        const double percent = 100.0 * static_cast<double>(pairs) / static_cast<double>(others);
-        overlapping_sum_ += percent;
-        ++overlapping_frames_;
-        result_.worst_overlapping_percent = std::max(result_.worst_overlapping_percent, percent);
-    }
-
     void observeEnds(std::uint32_t frame) {
         for (std::size_t row = 0; row < rows_.size(); ++row) {
             if (!start_[row] && now().isThere(row)) start_[row] = now().place(row);
@@ -149,25 +94,28 @@ class Measurer {
     void observeSteps(std::uint32_t frame) {
         std::uint64_t across = 0;
         walls_.look((frame - 1.0) * dt_, frame * dt_);
-        for (std::size_t i = 0; i < present_.size(); ++i) {
-            const std::uint32_t row = present_[i];
-            walls_.standAt(heights_[i]);
-            double& deepest = isGiven(i) ? given_.deepest_wall_penetration : result_.deepest_wall_penetration;
-            deepest = std::max(deepest, walls_.empty() ? 0.0 : walls_.penetration(bodies_[i]));
-            if (!vehicles_.empty() && !isGiven(i)) vehicles_.look(frame, row, bodies_[i], heights_[i]);
+        for (std::size_t i = 0; i < present_.count(); ++i) {
+            const std::uint32_t row = present_.row(i);
+            const Capsule& body = present_.body(i);
+            const double height = present_.heights()[i];
+            const bool is_given = present_.isGiven(i);
+            walls_.standAt(height);
+            double& deepest = is_given ? given_.deepest_wall_penetration : result_.deepest_wall_penetration;
+            if (!walls_.isFar(body.middle, present_.reach(i)))
+                deepest = std::max(deepest, walls_.penetration(body));
+            if (!vehicles_.empty() && !is_given) vehicles_.look(frame, row, body, height);
             if (!heads_.empty()) heads_.look(now(), aliveSince(row, 1) ? &before(1) : nullptr, row);
             if (!aliveSince(row, 1)) continue;
             const glm::dvec2 from = before(1).place(row);
             const glm::dvec2 to = now().place(row);
             const double step = glm::distance(from, to);
             const double speed = step / dt_;
-            if (!walls_.empty() && walls_.crosses(from, to))
-                ++(isGiven(i) ? given_.wall_crossings : result_.wall_crossings);
+            if (!walls_.isFar(from, step) && walls_.crosses(from, to))
+                ++(is_given ? given_.wall_crossings : result_.wall_crossings);
             if (options_.line) across += crossesLine(from, to) ? 1 : 0;
-            countOverLinks(from, to, heights_[i], frame);
-            speed_sum_ += speed;
-            ++speed_count_;
-            if (hasArrived(row, frame) || isGiven(i)) continue;
+            countOverLinks(from, to, height, frame);
+            speed_.add(speed);
+            if (hasArrived(row, frame) || is_given) continue;
             way_[row] += step;
             effort_[row] += (2.23 + 1.26 * speed * speed) * dt_;
             observeMotion(row, speed);
@@ -237,51 +185,6 @@ class Measurer {
         return along >= 0.0 && along <= 1.0;
     }
 
-    /// Rex and Loewen 2007, equation (4): for each walker the square of (same - opposite) / (same + opposite)
-    /// over those in its lane, here half a metre to both sides and ten metres along its own direction.
-    void observeLanes() {
-        constexpr double kHalfLane = 0.5, kAlong = 10.0;
-        double sum = 0.0;
-        std::size_t counted = 0;
-        for (std::uint32_t i = 0; i < present_.size(); ++i) {
-            if (!aliveSince(present_[i], 1) || glm::length(velocity(present_[i], 0)) < gpu::STANDING_SPEED)
-                continue;
-            const glm::dvec2 way = now().facing(present_[i]);
-            int same = 0, opposite = 0;
-            grid_.near(places_[i], kAlong, [&](std::uint32_t j) {
-                const glm::dvec2 offset = places_[j] - places_[i];
-                if (j == i || !areOnOneGround(heights_[i], heights_[j]) ||
-                    std::abs(way.x * offset.y - way.y * offset.x) > kHalfLane ||
-                    std::abs(glm::dot(way, offset)) > kAlong)
-                    return;
-                const double agreement = glm::dot(way, now().facing(present_[j]));
-                same += agreement > 0.5 ? 1 : 0;
-                opposite += agreement < -0.5 ? 1 : 0;
-            });
-            if (same + opposite == 0) continue;
-            const double order = static_cast<double>(same - opposite) / (same + opposite);
-            sum += order * order;
-            ++counted;
-        }
-        if (counted == 0) return;
-        lane_sum_ += sum / static_cast<double>(counted);
-        ++lane_frames_;
-    }
-
-    void observeDensity() {
-        for (std::uint32_t i = 0; i < present_.size(); ++i)
-            addDensity(i, voronoiDensity(grid_, places_, i, heights_));
-    }
-
-    void addDensity(std::uint32_t i, double density) {
-        density_.add(density);
-        density_sum_ += density;
-        if (!aliveSince(present_[i], 1)) return;
-        auto& [speed, count] = speeds_[static_cast<int>(density / 0.25)];
-        speed += glm::length(velocity(present_[i], 0));
-        ++count;
-    }
-
     void account() {
         given_.people = static_cast<std::uint32_t>(std::ranges::count_if(rows_, &io::AgentRow::is_given));
         result_.agents = static_cast<std::uint32_t>(rows_.size()) - given_.people;
@@ -323,27 +226,17 @@ class Measurer {
         result_.run_over = vehicles_.runOver();
         result_.vehicles = bake_.vehicles.size();
         result_.calls = callsIn(bake_);
-        const auto mean = [](double sum, std::uint64_t count) {
-            return count ? sum / static_cast<double>(count) : 0.0;
-        };
-        given_.overlapping_percent = mean(given_sum_, given_frames_);
         if (given_.people > 0) result_.given = given_;
-        result_.overlapping_percent = mean(overlapping_sum_, overlapping_frames_);
         result_.heading_rate = spreadOf(heading_rate_);
         if (heads_.hasRates()) result_.head_rate = spreadOf(heads_.rates());
         result_.looks_at = heads_.shares();
         result_.acceleration = spreadOf(acceleration_);
         result_.jerk = spreadOf(jerk_);
         summariseLinks();
-        result_.backward_percent = 100.0 * mean(static_cast<double>(backward_frames_), walked_frames_);
-        result_.lane_order = mean(lane_sum_, lane_frames_);
-        result_.mean_density = mean(density_sum_, density_.count());
-        result_.high_density = density_.percentile(0.99);
-        result_.mean_speed = mean(speed_sum_, speed_count_);
-        for (const auto& [bin, entry] : speeds_)
-            if (entry.second >= 20)
-                result_.speed_by_density.emplace_back((bin + 0.5) * 0.25,
-                                                      entry.first / static_cast<double>(entry.second));
+        if (walked_frames_ > 0)
+            result_.backward_percent =
+                100.0 * static_cast<double>(backward_frames_) / static_cast<double>(walked_frames_);
+        result_.mean_speed = speed_.value();
         if (options_.line && crossed_ > 1 && last_across_ > first_across_)
             result_.flow = static_cast<double>(crossed_ - 1) / ((last_across_ - first_across_) * dt_);
         else if (options_.line)
@@ -358,28 +251,17 @@ class Measurer {
     const MeasureOptions& options_;
     const std::vector<io::AgentRow>& rows_;
     recording::WallWatch walls_;
-    PlaneGrid grid_;
     double dt_;
-    double largest_radius_ = 0.0;
-    std::vector<Capsule> bodies_;         // of those present
     std::deque<io::CrowdFrame> history_;  // newest first
-    std::vector<std::uint32_t> present_;  // rows alive now
-    std::vector<glm::dvec2> places_;      // of those
-    std::vector<double> heights_;         // likewise, m; all zero where there is one storey
     StuckWatch stuck_;
-    BetweenRows between_rows_;
+    Present present_;
     std::vector<double> way_, effort_;
     std::vector<std::optional<glm::dvec2>> start_;  // where somebody was first seen
     std::vector<double> straight_;                  // m, from there to where it arrived
-    Histogram heading_rate_{3600.0, 7200}, acceleration_{100.0, 10000}, jerk_{5000.0, 10000},
-        density_{20.0, 2000};
-    std::map<int, std::pair<double, std::uint64_t>> speeds_;
+    Histogram heading_rate_{3600.0, 7200}, acceleration_{100.0, 10000}, jerk_{5000.0, 10000};
     GivenFigures given_;
-    double given_sum_ = 0.0;
-    std::uint64_t given_frames_ = 0;
-    double overlapping_sum_ = 0.0, lane_sum_ = 0.0, density_sum_ = 0.0, speed_sum_ = 0.0;
-    std::uint64_t overlapping_frames_ = 0, lane_frames_ = 0, speed_count_ = 0, walked_frames_ = 0,
-                  backward_frames_ = 0;
+    Mean speed_;
+    std::uint64_t walked_frames_ = 0, backward_frames_ = 0;
     std::uint64_t crossed_ = 0;
     std::uint32_t first_across_ = ~0u, last_across_ = 0;
     struct Crossings {
@@ -393,12 +275,31 @@ class Measurer {
     Measurement result_;
 };
 
+void add(const Nearness& near, Measurement& to) {
+    to.overlapping_percent = near.overlapping_percent;
+    to.worst_overlapping_percent = near.worst_overlapping_percent;
+    to.deepest_overlap_percent = near.deepest_overlap_percent;
+    if (to.given) {
+        to.given->overlapping_percent = near.given_overlapping_percent;
+        to.given->deepest_overlap_percent = near.given_deepest_overlap_percent;
+    }
+    to.lane_order = near.lane_order;
+    to.mean_density = near.mean_density;
+    to.high_density = near.high_density;
+    to.speed_by_density = near.speed_by_density;
+    to.overlaps = near.overlaps;
+}
+
 }  // namespace
 
 Measurement measureBake(io::CrowdReader& crowd, const MeasureOptions& options) {
     if (crowd.frames() == 0)
         throw InputError(crowd.bake().folder, "has no frames: there is nothing to measure");
-    return Measurer(crowd, options).run();
+    io::CrowdReader second(crowd.bake());
+    auto nearness = std::async(std::launch::async, [&] { return measureNearness(second); });
+    Measurement result = Measurer(crowd, options).run();
+    add(nearness.get(), result);
+    return result;
 }
 
 }  // namespace throng::analysis

@@ -42,36 +42,46 @@ Marks::~Marks() {
 }
 
 void Marks::use(Colour colour, double alpha) {
-    const auto level = [](double part) { return static_cast<std::int32_t>(std::lround(255.0 * part)); };
-    red_ = level(colour.red);
-    green_ = level(colour.green);
-    blue_ = level(colour.blue);
+    const auto level = [](double part) { return static_cast<std::uint32_t>(std::lround(255.0 * part)); };
+    colour_ = level(colour.red) << 16 | level(colour.green) << 8 | level(colour.blue);
     weight_ = 256.0f * static_cast<float>(alpha);
 }
 
+/// A row's pixels [first, last).
 /// @param cover tells how much of the pixel with this middle is the mark's, 0 to 1
 template <class Cover>
-void Marks::paint(glm::vec2 lower, glm::vec2 upper, const Cover& cover) {
-    // Limits first: places far outside are no whole numbers of pixels.
-    const glm::vec2 most(static_cast<float>(width_), static_cast<float>(height_));
-    const glm::ivec2 first(glm::floor(glm::clamp(lower - kEdge, glm::vec2(0.0f), most)));
-    const glm::ivec2 last(glm::ceil(glm::clamp(upper + kEdge, glm::vec2(0.0f), most)));
-    for (int y = first.y; y < last.y; ++y) {
-        auto* row = reinterpret_cast<std::uint32_t*>(pixels_ + std::ptrdiff_t{y} * stride_);
-        for (int x = first.x; x < last.x; ++x) {
-            const float covered =
-                cover(glm::vec2(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
-            const auto weight = static_cast<std::int32_t>(weight_ * covered);
-            if (weight == 0) continue;
-            const auto pixel = static_cast<std::int32_t>(row[x]);
-            const auto mixed = [weight](std::int32_t before, std::int32_t mark) {
-                return before + (((mark - before) * weight + 128) >> 8);
-            };
-            row[x] = static_cast<std::uint32_t>(mixed((pixel >> 16) & 255, red_) << 16 |
-                                                mixed((pixel >> 8) & 255, green_) << 8 |
-                                                mixed(pixel & 255, blue_));
-        }
+void Marks::paintRow(int y, int first, int last, const Cover& cover) {
+    auto* row = reinterpret_cast<std::uint32_t*>(pixels_ + std::ptrdiff_t{y} * stride_);
+    for (int x = first; x < last; ++x) {
+        const float covered = cover(glm::vec2(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
+        const auto weight = static_cast<std::uint32_t>(weight_ * covered);
+        if (weight == 0) continue;
+        // Red and blue are worked out in one number, green in another: their products do not reach each
+        // other.
+        constexpr std::uint32_t kRedAndBlue = 0xff00ffu, kGreen = 0x00ff00u;
+        constexpr std::uint32_t kHalves = 0x800080u, kHalf = 0x8000u;
+        const std::uint32_t red_and_blue =
+            (row[x] & kRedAndBlue) * (256u - weight) + (colour_ & kRedAndBlue) * weight + kHalves;
+        const std::uint32_t green = (row[x] & kGreen) * (256u - weight) + (colour_ & kGreen) * weight + kHalf;
+        row[x] = (red_and_blue >> 8 & kRedAndBlue) | (green >> 8 & kGreen);
     }
+}
+
+/// The whole pixels between two places, of as many as there are.
+glm::ivec2 Marks::range(float from, float to, int count) {
+    // Limits first: places far outside, and what is no number, are no whole numbers of pixels. Above zero,
+    // what is cut off is what is rounded down.
+    const auto limited = [&](float at) { return std::min(std::max(0.0f, at), static_cast<float>(count)); };
+    const float last = limited(to + kEdge);
+    const int whole = static_cast<int>(last);
+    return {static_cast<int>(limited(from - kEdge)), whole + (static_cast<float>(whole) < last ? 1 : 0)};
+}
+
+template <class Cover>
+void Marks::paint(glm::vec2 lower, glm::vec2 upper, const Cover& cover) {
+    const glm::ivec2 columns = range(lower.x, upper.x, width_), rows = range(lower.y, upper.y, height_);
+    for (int y = rows.x; y < rows.y; ++y)
+        paintRow(y, columns.x, columns.y, cover);
 }
 
 void Marks::line(glm::vec2 from, glm::vec2 to, float width) {
@@ -80,11 +90,21 @@ void Marks::line(glm::vec2 from, glm::vec2 to, float width) {
     const glm::vec2 along = (to - from) / length, across = leftOf(along), middle = 0.5f * (from + to);
     const float half_length = 0.5f * length, half_width = 0.5f * width;
     const glm::vec2 reach = half_length * glm::abs(along) + half_width * glm::abs(across);
-    paint(middle - reach, middle + reach, [=](glm::vec2 at) {
-        const glm::vec2 off = at - middle;
-        return coverOfStrip(half_width, glm::dot(off, across)) *
-               coverOfStrip(half_length, glm::dot(off, along));
-    });
+    const glm::ivec2 rows = range(middle.y - reach.y, middle.y + reach.y, height_);
+    // Of a row, only what is between both long sides is looked at: of lines aslant, boxes are mostly empty.
+    constexpr float kLevel = 1.0e-3f;
+    const float slope = std::abs(across.x) > kLevel ? -across.y / across.x : 0.0f;
+    const float aside = std::abs(across.x) > kLevel ? (half_width + kEdge) / std::abs(across.x) : reach.x;
+    for (int y = rows.x; y < rows.y; ++y) {
+        const float at = middle.x + slope * (static_cast<float>(y) + 0.5f - middle.y);
+        const glm::ivec2 columns =
+            range(std::max(at - aside, middle.x - reach.x), std::min(at + aside, middle.x + reach.x), width_);
+        paintRow(y, columns.x, columns.y, [=](glm::vec2 pixel) {
+            const glm::vec2 off = pixel - middle;
+            return coverOfStrip(half_width, glm::dot(off, across)) *
+                   coverOfStrip(half_length, glm::dot(off, along));
+        });
+    }
 }
 
 void Marks::disc(glm::vec2 middle, float radius) {

@@ -31,14 +31,17 @@ class Marks {
     void triangle(glm::vec2 a, glm::vec2 b, glm::vec2 c);
 
   private:
+    static glm::ivec2 range(float from, float to, int count);
+    template <class Cover>
+    void paintRow(int y, int first, int last, const Cover& cover);
     template <class Cover>
     void paint(glm::vec2 lower, glm::vec2 upper, const Cover& cover);
 
     cairo_surface_t* surface_;
     std::uint8_t* pixels_;
     int width_, height_, stride_;
-    std::int32_t red_ = 0, green_ = 0, blue_ = 0;
-    float weight_ = 0.0f;  // of 256
+    std::uint32_t colour_ = 0;  // 0xRRGGBB
+    float weight_ = 0.0f;       // of 256
 };
 
 }  // namespace throng::analysis

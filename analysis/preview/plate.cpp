@@ -122,6 +122,7 @@ Plate::Plate(const std::filesystem::path& bake, const PreviewOptions& options)
     height_ = static_cast<int>(height) / 2 * 2;
     layout_ = makeCanvas();
     drawLayout();
+    ground_ = makeCanvas();
 }
 
 Surface Plate::makeCanvas() const {
@@ -236,6 +237,7 @@ void Plate::drawLayout() {
     setColour(context, kInk);
     text(context, kMargin, 38.0, 22.0, bake_.name, true);
     drawScaleBar(context);
+    drawLegend(context);
 }
 
 /// Floors above each other get lighter towards the top.
@@ -373,20 +375,40 @@ void Plate::drawTrails(cairo_surface_t* canvas, const io::CrowdFrame& now) {
     const std::uint32_t length = trailFrames(bake_, options_);
     const std::uint32_t stride = framesOfPiece(length);
     if (length == 0) return;
-    Marks marks(canvas);
     io::CrowdFrame later = now;
-    const auto width = static_cast<float>(std::max(1.0, 0.10 * scale_));
     for (std::uint32_t back = stride; back <= length && back <= now.index(); back += stride) {
         const io::CrowdFrame earlier = crowd_.frame(now.index() - back);
-        const double alpha = 0.42 * (1.0 - static_cast<double>(back) / length);
-        for (std::size_t row = 0; row < bake_.agents; ++row) {
-            if (!isShown(later, row) || !isShown(earlier, row)) continue;
-            marks.use(groupColour(groups_.group_of[row]), alpha);
-            marks.line(toPixel(later.place(row).x, later.place(row).y),
-                       toPixel(earlier.place(row).x, earlier.place(row).y), width);
-        }
+        drawPieces(canvas, earlier, later, 1.0 - static_cast<double>(back) / length);
         later = earlier;
     }
+}
+
+/// Of everybody's trail. @param strength 1: what was walked just now
+void Plate::drawPieces(cairo_surface_t* canvas, const io::CrowdFrame& earlier, const io::CrowdFrame& later,
+                       double strength) const {
+    Marks marks(canvas);
+    const auto width = static_cast<float>(std::max(1.0, 0.10 * scale_));
+    for (std::size_t row = 0; row < bake_.agents; ++row) {
+        if (!isShown(later, row) || !isShown(earlier, row)) continue;
+        marks.use(groupColour(groups_.group_of[row]), 0.42 * strength);
+        marks.line(toPixel(later.place(row).x, later.place(row).y),
+                   toPixel(earlier.place(row).x, earlier.place(row).y), width);
+    }
+}
+
+/// What lies under people, who move over it: it changes slowly, and a film's encoder has nothing to do where
+/// it does not. @returns the frame of which it is, a few before at most
+io::CrowdFrame Plate::drawGround(const io::CrowdFrame& now) {
+    constexpr double kPerSecond = 6.0;  // trails fade by some 2 % of their colour from one to the next
+    const auto every = std::max(1u, static_cast<std::uint32_t>(std::lround(bake_.fps / kPerSecond)));
+    if (ground_frame_ && now.index() - *ground_frame_ < every) return crowd_.frame(*ground_frame_);
+    ground_frame_ = now.index();
+    const Context scope(ground_.get());
+    cairo_set_source_surface(scope.context, layout_.get(), 0.0, 0.0);
+    cairo_paint(scope.context);
+    if (options_.density) drawDensity(scope.context, now);
+    drawTrails(ground_.get(), now);
+    return now;
 }
 
 void Plate::drawWall(cairo_t* context, const authoring::Wall& wall) const {
@@ -453,6 +475,11 @@ void Plate::drawCaption(cairo_t* context, const io::CrowdFrame& now) const {
     text(context, kMargin, 56.0, 13.0,
          fmt::format("{:.2f} s, frame {} of {} at {:.4g} frames/s, {} people in the scene",
                      now.index() / bake_.fps, now.index() + 1, bake_.frames, bake_.fps, presentIn(now)));
+}
+
+/// What is said of the whole bake.
+void Plate::drawLegend(cairo_t* context) const {
+    setColour(context, kInk, 0.75);
     text(context, kMargin, height_ - 34.0 - kLegendLine * (legend_lines_ - 1), 13.0,
          fmt::format("whole bake: {} people, {} arrived, {} walking at the end, {} refused",
                      bake_.account.agents, bake_.account.arrived, bake_.account.walking,
@@ -483,13 +510,12 @@ std::uint32_t Plate::busiestFrame() {
 }
 
 void Plate::draw(std::uint32_t frame, cairo_surface_t* canvas) {
-    const io::CrowdFrame now = crowd_.frame(frame);
+    const io::CrowdFrame now = crowd_.frame(frame), before = drawGround(now);
     const Context scope(canvas);
     cairo_t* context = scope.context;
-    cairo_set_source_surface(context, layout_.get(), 0.0, 0.0);
+    cairo_set_source_surface(context, ground_.get(), 0.0, 0.0);
     cairo_paint(context);
-    if (options_.density) drawDensity(context, now);
-    drawTrails(canvas, now);
+    if (options_.trail_seconds > 0.0) drawPieces(canvas, before, now, 1.0);
     drawGates(context, frame);
     traffic_.drawFrame(context, view(), frame);
     drawPeople(canvas, now);

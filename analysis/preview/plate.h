@@ -25,7 +25,7 @@ struct SurfaceFree {
 };
 using Surface = std::unique_ptr<cairo_surface_t, SurfaceFree>;
 
-/// Draws frames of one bake. What does not move is drawn once.
+/// Draws frames of one bake. What does not move is drawn once; what changes slowly, some times a second.
 class Plate {
   public:
     Plate(const std::filesystem::path& bake, const PreviewOptions& options);
@@ -56,10 +56,14 @@ class Plate {
     void drawDensity(cairo_t* context, const io::CrowdFrame& now) const;
     std::uint32_t framesOfPiece(std::uint32_t length) const;
     void drawTrails(cairo_surface_t* canvas, const io::CrowdFrame& now);
+    void drawPieces(cairo_surface_t* canvas, const io::CrowdFrame& earlier, const io::CrowdFrame& later,
+                    double strength) const;
+    io::CrowdFrame drawGround(const io::CrowdFrame& now);
     /// @returns how far it reaches ahead, px
     double drawBody(Marks& marks, glm::dvec2 at, const Capsule& body, double size) const;
     void drawPeople(cairo_surface_t* canvas, const io::CrowdFrame& now) const;
     void drawCaption(cairo_t* context, const io::CrowdFrame& now) const;
+    void drawLegend(cairo_t* context) const;
     void drawScaleBar(cairo_t* context) const;
     /// px, even: video encoders want that.
     int widthFor(glm::dvec2 extent) const;
@@ -88,7 +92,8 @@ class Plate {
     std::size_t left_out_ = 0;  // groups, where there are thousands
     int width_ = 0, height_ = 0;
     double scale_ = 1.0;  // px per m
-    Surface layout_;
+    Surface layout_, ground_;
+    std::optional<std::uint32_t> ground_frame_;
 };
 
 }  // namespace throng::analysis

@@ -96,7 +96,11 @@ class Watch {
             const std::uint32_t row = present_[i];
             const double reach = shapes_[i].thickness + glm::length(shapes_[i].axis);
             grid_.near(bodies_[i], reach + largest_radius_, [&](std::uint32_t j) {
-                if (j <= i || !areOnOneGround(heights_[i], heights_[j])) return;
+                const glm::dvec2 offset = bodies_[j] - bodies_[i];
+                const double most = reach + largest_radius_;
+                if (j <= i || glm::dot(offset, offset) > most * most ||
+                    !areOnOneGround(heights_[i], heights_[j]))
+                    return;
                 const std::uint32_t other = present_[j];
                 const double depth = overlapOf(shapes_[i], shapes_[j]);
                 if (depth <= kCounts) return;
@@ -177,18 +181,23 @@ Json agentsJson(const std::vector<io::AgentRow>& rows, const io::GroupTable& gro
 
 }  // namespace
 
-std::string bakeReport(io::CrowdReader& crowd, const Measurement& measured,
-                       const std::vector<std::string>& missed) {
-    const io::Bake& bake = crowd.bake();
-    WayPacker packer(bake);
-    Watch watch(bake, crowd.people(), crowd.mostSize());
+FramesOfReport framesOfReport(io::CrowdReader& crowd) {
+    WayPacker packer(crowd.bake());
+    Watch watch(crowd.bake(), crowd.people(), crowd.mostSize());
     StuckWatch stuck(crowd);
     for (std::uint32_t frame = 0; frame < crowd.frames(); ++frame) {
-        packer.add(crowd.frame(frame));
-        watch.look(crowd.frame(frame));
-        stuck.look(crowd.frame(frame));
+        const io::CrowdFrame now = crowd.frame(frame);
+        packer.add(now);
+        watch.look(now);
+        stuck.look(now);
     }
-    const PackedWays ways = packer.finish();
+    return {packer.finish(), watch.series, watch.overlaps(), watch.overlapCount(), stuckOnes(crowd, stuck)};
+}
+
+std::string bakeReport(io::CrowdReader& crowd, const FramesOfReport& frames, const Measurement& measured,
+                       const std::vector<std::string>& missed) {
+    const io::Bake& bake = crowd.bake();
+    const PackedWays& ways = frames.ways;
     const io::GroupTable groups = io::groupsOf(crowd.people());
     Json data = crowdJson(bake, groups);
     data["complete"] = bake.complete;
@@ -201,10 +210,10 @@ std::string bakeReport(io::CrowdReader& crowd, const Measurement& measured,
                           : Json::object();
     data["device"] = bake.manifest.value("device", Json::object());
     data["generator"] = bake.manifest.value("generator", "");
-    data["series"] = watch.series;
-    data["overlaps"] = watch.overlaps();
-    data["overlap_pairs"] = watch.overlapCount();
-    data["stuck"] = stuckOnes(crowd, stuck);
+    data["series"] = frames.series;
+    data["overlaps"] = frames.overlaps;
+    data["overlap_pairs"] = frames.overlap_pairs;
+    data["stuck"] = frames.stuck;
     data["ways"] = {{"every", ways.every},
                     {"moments", ways.moments},
                     {"quantum", ways.quantum},

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <new>
 #include <stdexcept>
 
@@ -163,8 +164,8 @@ class WayPacker::State {
             const auto shown = [&](double minimum, std::size_t i) {
                 return minimum + packed_.quantum * (from_[i] + share * (to[i] - from_[i]));
             };
-            const double error = std::hypot(frame.place(row).x - shown(bake_.minimum.x, 2 * row),
-                                            frame.place(row).y - shown(bake_.minimum.y, 2 * row + 1));
+            const glm::dvec2 at(shown(bake_.minimum.x, 2 * row), shown(bake_.minimum.y, 2 * row + 1));
+            const double error = glm::distance(frame.place(row), at);
             packed_.largest_error = std::max(packed_.largest_error, error);
             squares_ += error * error;
             ++seen_;

@@ -93,11 +93,12 @@ class FormationPlacer {
             with_.scene.goals.push_back(with_.scene.stages.back().point);
             const std::size_t first = with_.scene.stages.size() - 1 - wayOf(formation, i).size();
             turn(formation, i, with_.scene.stages[first], person);
-            checkStart(i, start, person, bodies);
+            const bool has_room = bodies.hasRoom(person);
+            checkStart(i, start, person, has_room);
             addPlanChanges(with_, plan, formation.people,
                            {{person.spawn_position, person.spawn_position, person.spawn_position}}, random, i,
                            index, person);
-            if (bodies.hasRoom(person)) {
+            if (has_room) {
                 if (start == 0.0) person.flags |= gpu::PERSON_PRESENT_AT_START;
                 bodies.add(person);
             }
@@ -226,7 +227,7 @@ class FormationPlacer {
         return depth;
     }
 
-    void checkStart(std::uint64_t i, double start, const gpu::Person& person, const PlacedBodies& bodies) {
+    void checkStart(std::uint64_t i, double start, const gpu::Person& person, bool has_room) {
         if (const float depth = depthInWalls(person); depth > 0.0f)
             complaints_.add(i, "stands in a wall", "move it, or the wall",
                             fmt::format(" ({:.2f} m deep)", depth));
@@ -238,7 +239,7 @@ class FormationPlacer {
                         "move it, or open the gate at the start");
                     break;
                 }
-        if (!bodies.hasRoom(person))
+        if (!has_room)
             complaints_.add(
                 i,
                 "starts where somebody else stands: it comes in once there is room, or is refused in the end",

@@ -23,7 +23,18 @@ class PlacedBodies {
     void add(const gpu::Person& person);
 
   private:
-    std::unordered_map<std::uint64_t, std::vector<gpu::Person>> cells_;
+    struct Body {
+        glm::vec2 position;         // m
+        float radius;               // m, as a person's
+        float half_axis;            // m
+        float heading;              // rad
+        std::uint32_t same_square;  // the one before in its square, or kNone
+    };
+    static constexpr std::uint32_t kNone = ~0u;
+    static bool areInEachOther(const Body& a, const Body& b);
+
+    std::vector<Body> bodies_;
+    std::unordered_map<std::uint64_t, std::uint32_t> last_in_;  // by square
 };
 
 }  // namespace throng::authoring

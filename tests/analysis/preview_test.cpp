@@ -95,6 +95,18 @@ TEST(Marks, LinesThatGoOnFromEachOtherAreOneLine) {
         << "who stands leaves none";
 }
 
+/// Of lines, only the pixels between both sides are looked at: none that belongs to one is left out.
+TEST(Marks, LinesAslantAreWhole) {
+    for (int degrees = 0; degrees < 180; ++degrees)
+        for (const float width : {0.7f, 1.0f, 3.0f}) {
+            const double angle = degrees * std::numbers::pi / 180.0;
+            const glm::vec2 way(std::cos(angle), std::sin(angle)), middle(31.3f, 32.6f);
+            const double area =
+                areaOf([&](Marks& m) { m.line(middle - 20.0f * way, middle + 20.0f * way, width); });
+            EXPECT_NEAR(area, 40.0 * double{width}, 0.04 * 40.0 * double{width}) << degrees << " " << width;
+        }
+}
+
 TEST(Marks, EndWhereThePictureDoes) {
     EXPECT_NEAR(areaOf([](Marks& m) { m.disc({0.0f, 0.0f}, 20.0f); }), 100.0 * std::numbers::pi, 4.0);
     EXPECT_EQ(areaOf([](Marks& m) {

@@ -5,7 +5,9 @@
 
 #include <filesystem>
 #include <fstream>
+#include <random>
 
+#include "base/capsule.h"
 #include "base/files/beneath.h"
 #include "base/files/errors.h"
 #include "base/files/input_file.h"
@@ -110,7 +112,36 @@ TEST(PlaneGrid, TakesPlacesAndBoundsHoweverFar) {
         grid.near({5.0, 5.0}, 1.0, [&](std::uint32_t index) { found.push_back(index); });
         EXPECT_NE(std::find(found.begin(), found.end(), 2u), found.end());
         grid.near({-1.0e300, NAN}, HUGE_VAL, [&](std::uint32_t) {});
+        grid.nearSegment({-1.0e300, NAN}, {NAN, 1.0e300}, HUGE_VAL, [&](std::uint32_t) {});
     }
+}
+
+TEST(PlaneGrid, FindsEachOnceOfAllBesideALine) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> anywhere(-30.0, 30.0);
+    PlaneGrid grid({-20.0, -10.0}, {20.0, 10.0}, 1.3);  // a third of them are outside
+    std::vector<glm::dvec2> places(1234);
+    for (glm::dvec2& place : places)
+        place = {anywhere(random), 0.5 * anywhere(random)};
+    grid.sort(places);
+    std::size_t beside = 0, looked_at = 0;
+    for (int line = 0; line < 300; ++line) {
+        glm::dvec2 from(anywhere(random), anywhere(random)), to(anywhere(random), anywhere(random));
+        if (line % 5 == 0) to.y = from.y;
+        if (line % 5 == 1) to.x = from.x;
+        std::vector<int> found(places.size(), 0);
+        grid.nearSegment(from, to, 0.5, [&](std::uint32_t index) { ++found[index]; });
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            EXPECT_LE(found[i], 1);
+            looked_at += static_cast<std::size_t>(found[i]);
+            if (segmentsDistance(places[i] - 0.5 * (from + to), glm::dvec2(0.0), 0.5 * (to - from)) > 0.5)
+                continue;
+            EXPECT_EQ(found[i], 1) << "line " << line;
+            ++beside;
+        }
+    }
+    EXPECT_GT(beside, 1000u);
+    EXPECT_LT(looked_at, 10 * beside);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ void fuzz::readOne(std::string_view input) {
     const auto [measured, missed] = cli::judgeBake(crowd, {});
     static_cast<void>(analysis::measurementJson(measured).dump());
     static_cast<void>(analysis::measurementText(measured));
-    static_cast<void>(analysis::bakeReport(crowd, measured, missed));
+    static_cast<void>(analysis::bakeReport(crowd, analysis::framesOfReport(crowd), measured, missed));
     static_cast<void>(analysis::thumbnailOf(crowd));
     analysis::PreviewOptions options;
     options.width = 200;
