@@ -220,6 +220,8 @@ class FormationPlacer {
     /// m: how far into walls somebody stands.
     float depthInWalls(const gpu::Person& person) const {
         const Capsule shape = shapeOf(person);
+        if (shape.axis == glm::dvec2(0.0))
+            return wallDepth(with_.geometry, person.spawn_position, person.radius);
         float depth = -kUnreachable;
         for (const double along : {-1.0, 0.0, 1.0})
             depth = std::max(depth, wallDepth(with_.geometry, glm::vec2(shape.middle + along * shape.axis),
