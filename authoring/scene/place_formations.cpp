@@ -53,7 +53,14 @@ double wallGap(const Capsule& shape, const gpu::WallSegment& wall) {
 class FormationPlacer {
   public:
     FormationPlacer(const Placing& with, const std::vector<gpu::WallSegment>& closed_gates)
-        : with_(with), closed_gates_(closed_gates) {}
+        : with_(with), closed_gates_(closed_gates) {
+        std::size_t people = 0;
+        for (std::size_t i = 0; i < with.layout.formations.size(); ++i)
+            people += with.scene.queues[with.layout.flows.size() + i].row_count;
+        with.scene.stages.reserve(with.scene.stages.size() + people);  // some have more than one
+        with.scene.goals.reserve(with.scene.goals.size() + people);
+        bodies_.expect(people);
+    }
 
     void place(const Formation& formation, std::size_t formation_index) {
         const std::size_t index = with_.layout.flows.size() + formation_index;
