@@ -67,6 +67,13 @@ class PeopleDrawer {
     }
 
   private:
+    /// So many more people; thousands of small groups are still not moved about for each.
+    void expect(std::size_t count) {
+        std::vector<gpu::Person>& people = scene_.people;
+        if (people.size() + count > people.capacity())
+            people.reserve(std::max(people.size() + count, 2 * people.capacity()));
+    }
+
     void drawFlow(const Flow& flow, std::size_t index) {
         const GroupRandom random(layout_.simulation.seed, flow.id);
         std::vector<RateChange> changes;
@@ -81,6 +88,7 @@ class PeopleDrawer {
             flow.alights ? std::vector<double>(alightingPeople(layout_, flow), kComesOutByVehicle)
                          : entryTimes(flow, changes, random, layout_.simulation.warmup, end);
         beginGroup(flow.id, true, flow.people);
+        expect(times.size());
         std::vector<Party> parties = drawParties(flow.people, random, times.size());
         if (flow.alights) {
             const std::uint64_t each = std::max<std::uint64_t>(flow.count.value_or(0), 1);
@@ -103,6 +111,7 @@ class PeopleDrawer {
         const FormationPlaces places = formationPlaces(formation, layout_.simulation.seed);
         const auto* list = std::get_if<ListFormation>(&formation.shape);
         beginGroup(formation.id, false, formation.people);
+        expect(places.positions.size());
         std::vector<Party> parties = drawParties(formation.people, random, places.positions);
         if (list)  // nobody waits for company that comes later or goes another way
             parties = splitWhere(

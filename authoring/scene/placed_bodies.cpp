@@ -38,7 +38,6 @@ bool PlacedBodies::areInEachOther(const Body& a, const Body& b) {
 
 void PlacedBodies::expect(std::size_t people) {
     bodies_.reserve(bodies_.size() + people);
-    last_in_.reserve(last_in_.size() + people / 2);
 }
 
 bool PlacedBodies::hasRoom(const gpu::Person& person) const {
