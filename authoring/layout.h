@@ -110,6 +110,7 @@ struct SimulationSettings {
     /// s, [0, 1]: what is recorded is averaged over nearly as much before and after (recording/); 0: not at
     /// all
     double smoothing = 0.25;
+    bool ends_when_empty = false;  ///< the bake is shorter where everybody has left before its end
     bool walls_hide = false;       ///< nobody makes room for those behind walls that cannot be looked over
     bool avoid_congestion = true;  ///< routes lead round jams, as far as people could see them coming
     double maximum_acceleration = 4.0;  ///< m/s^2, [0.1, 100]

@@ -354,7 +354,7 @@ void BakeWriter::tidy(const std::filesystem::path& bake) {
 }
 
 BakeResult BakeWriter::finish(const Account& account, const BakeTiming& timing) {
-    if (frames_ != description_.frames)
+    if (frames_ > description_.frames || (frames_ < description_.frames && !description_.ends_when_empty))
         throw std::logic_error("frames are missing: only finishPartial() can be used");
     const BakeOutcome outcome = writeAll(account, timing, true);
     BakeResult result = resultAt(folder_->commit(), outcome);

@@ -54,7 +54,7 @@ class BakeWriter {
     /// Likewise the doors of vehicles, as Frame::doors.
     void takeDoors(std::vector<float> track) { door_track_ = std::move(track); }
 
-    /// Completes the bake; std::logic_error unless all expected frames were written.
+    /// Completes the bake; std::logic_error unless all expected frames were written, or it may end before.
     BakeResult finish(const Account& account, const BakeTiming& timing);
     /// Completes what there is as `NAME.partial`, with "complete": false: for bakes that were interrupted.
     BakeResult finishPartial(const Account& account, const BakeTiming& timing);

@@ -110,6 +110,7 @@ class Reader {
         reader.number("contact_range", s.contact_range);
         reader.integer("contact_iterations", s.contact_iterations);
         reader.number("smoothing", s.smoothing);
+        reader.boolean("ends_when_empty", s.ends_when_empty);
         reader.boolean("walls_hide", s.walls_hide);
         reader.boolean("avoid_congestion", s.avoid_congestion);
         reader.number("maximum_acceleration", s.maximum_acceleration);

@@ -266,6 +266,7 @@ recording::BakeDescription describeBake(const LoadedLayout& loaded, const BakeOp
     bake.seed = scene.settings.seed;
     bake.fps = scene.settings.fps;
     bake.frames = framesOf(scene.settings);
+    bake.ends_when_empty = scene.settings.ends_when_empty;
     bake.substeps = static_cast<std::uint32_t>(scene.settings.substeps);
     bake.duration = scene.settings.duration;
     bake.warmup = scene.settings.warmup;

@@ -22,6 +22,7 @@ namespace {
 
 constexpr const char* kSeconds = "seconds";
 constexpr const char* kMotion = "motion";
+constexpr const char* kWhoWasThere = "who was there";
 constexpr const char* kVehicleTrack = "vehicle track";
 constexpr const char* kLiftTrack = "lift track";
 constexpr const char* kDoorTrack = "door track";
@@ -127,13 +128,20 @@ class Run {
           maker_(
               simulation, settings, description, {job.diagram_every, job.seconds},
               [this](const Frame& frame) { receive(frame); },
-              [&writer](const Frame& frame) { writer.write(frame); }) {}
+              [&writer](const Frame& frame) { writer.write(frame); }) {
+        if (settings.ends_when_empty) maker_.endWhenEmpty(settings.fps);
+    }
 
     void goOnFrom(const io::Checkpoint& checkpoint) {
         simulation_.restore({checkpoint.steps, checkpoint.sections});
         const std::vector<std::byte>* motion = checkpoint.find(kMotion);
         if (!motion) throw std::runtime_error("the checkpoint says nothing of the motion so far");
         maker_.recorder().restore(*motion);
+        if (EmptyWatch* empty = maker_.emptyWatch()) {
+            const std::vector<std::byte>* seen = checkpoint.find(kWhoWasThere);
+            if (!seen) throw std::runtime_error("the checkpoint does not say who has been there");
+            empty->restore(*seen);
+        }
         takeTrack(checkpoint, kVehicleTrack, vehicles_);
         takeTrack(checkpoint, kLiftTrack, lifts_);
         takeTrack(checkpoint, kDoorTrack, doors_);
@@ -152,7 +160,8 @@ class Run {
             return interrupt.signal() == 0;
         };
         if (!interrupt.signal()) maker_.warmUp(warming);
-        for (std::uint32_t frame = maker_.frames(); frame < frames_ && !interrupt.signal(); ++frame) {
+        const auto goes_on = [&] { return !interrupt.signal() && !maker_.hasEnded(); };
+        for (std::uint32_t frame = maker_.frames(); frame < frames_ && goes_on(); ++frame) {
             if (!makeFrame(frame)) break;
             progress.update(frame + 1, maker_.present(), simulation_.stepsDone());
             if (job_.checkpoint_seconds > 0.0 && frame + 1 < frames_ &&
@@ -162,7 +171,7 @@ class Run {
         maker_.wait();
         const std::uint32_t taken = maker_.frames();
         progress.update(taken, maker_.present(), maker_.warmUpSteps() + taken * maker_.substeps());
-        return taken < frames_ ? interrupt.signal() : 0;
+        return taken < frames_ && !maker_.hasEnded() ? interrupt.signal() : 0;
     }
 
     /// Writes the frames that wait for later ones.
@@ -173,6 +182,11 @@ class Run {
         writer_.takeDoors(std::move(doors_));
     }
     std::uint32_t frames() const { return maker_.frames(); }
+    /// Where nobody is left, some may have been made for frames that the bake does not have.
+    std::uint32_t steps() const {
+        return maker_.hasEnded() ? maker_.warmUpSteps() + (frames() - 1) * maker_.substeps()
+                                 : simulation_.stepsDone();
+    }
 
     void save() {
         maker_.wait();
@@ -185,6 +199,7 @@ class Run {
         const double so_far = seconds();
         checkpoint.add(kSeconds, std::as_bytes(std::span(&so_far, 1)));
         checkpoint.add(kMotion, maker_.recorder().save());
+        if (const EmptyWatch* empty = maker_.emptyWatch()) checkpoint.add(kWhoWasThere, empty->save());
         if (!vehicles_.empty()) checkpoint.add(kVehicleTrack, std::as_bytes(std::span(vehicles_)));
         if (!lifts_.empty()) checkpoint.add(kLiftTrack, std::as_bytes(std::span(lifts_)));
         if (!doors_.empty()) checkpoint.add(kDoorTrack, std::as_bytes(std::span(doors_)));
@@ -312,7 +327,7 @@ BakeRun Baker::bake(LoadedLayout& loaded, const BakeJob& job, const InterruptGua
     }
     context_.check("simulating");
     run.timing.wall_seconds = running.seconds();
-    run.timing.steps = simulation.stepsDone();
+    run.timing.steps = running.steps();
     run.frames = running.frames();
     run.account = withAudience(simulation.account(), description.audience.size());
     context_.check("reading what became of everybody");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/baking/frame_maker.h"
 
+#include <cmath>
 #include <span>
 #include <utility>
 
@@ -23,6 +24,7 @@ FrameMaker::FrameMaker(sim::Simulation& simulation, const authoring::SimulationS
       diagrams_(diagrams),
       simulated_(std::move(simulated)),
       audience_(description),
+      walkers_(description.walkers()),
       seated_(static_cast<std::uint32_t>(description.audience.size())),
       warmup_(sim::warmupSteps(settings)),
       substeps_(static_cast<std::uint32_t>(settings.substeps)),
@@ -31,6 +33,11 @@ FrameMaker::FrameMaker(sim::Simulation& simulation, const authoring::SimulationS
       pump_(simulation, {diagrams.every > 0, diagrams.seconds, fromDevice(description.asked)},
             [this](const Frame& frame) { receive(frame); }) {}
 
+void FrameMaker::endWhenEmpty(double fps) {
+    if (seated_ > 0) return;  // who sits there for good does not leave
+    empty_ = std::make_unique<EmptyWatch>(walkers_, static_cast<std::uint32_t>(std::lround(fps)));
+}
+
 bool FrameMaker::warmUp(const std::function<bool()>& goes_on) {
     for (std::uint32_t step = simulation_.stepsDone(); step < warmup_; ++step) {
         if (!simulation_.step()) return false;
@@ -38,6 +45,7 @@ bool FrameMaker::warmUp(const std::function<bool()>& goes_on) {
         if (step % substeps_ == 0) simulation_.wait();
         if (!goes_on()) return false;
     }
+    if (empty_ && warmup_ > 0 && frames() == 0) tellWhoHasGone();
     return true;
 }
 
@@ -49,12 +57,20 @@ bool FrameMaker::makeFrame(std::uint32_t frame) {
     return true;
 }
 
+/// Of those who came and went in the warm-up, no frame tells.
+void FrameMaker::tellWhoHasGone() {
+    const std::vector<AgentOutcome> agents = simulation_.account().agents;
+    for (std::size_t row = 0; row < agents.size(); ++row)
+        if (agents[row].status == AgentStatus::arrived) empty_->hasGone(row);
+}
+
 void FrameMaker::receive(const Frame& frame) {
     std::uint32_t alive = 0;
     const std::span<const float> states = frame[Stream::state];
     for (std::size_t at = 0; at < states.size(); at += kComponents)
         alive += states[at] > 0.5f;
     walking_ = alive;
+    if (empty_ && !empty_->take(frame)) return;
     simulated_(frame);
     recorder_.take(frame);
 }

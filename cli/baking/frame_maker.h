@@ -4,8 +4,10 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <memory>
 
 #include "authoring/layout.h"
+#include "cli/baking/empty_watch.h"
 #include "recording/audience.h"
 #include "recording/bake_description.h"
 #include "recording/motion_recorder.h"
@@ -29,6 +31,13 @@ class FrameMaker {
                const recording::BakeDescription& description, const Diagrams& diagrams, Receiver simulated,
                Receiver shown);
 
+    /// Before the warm-up, or before going on: frames end a second after the last person has left.
+    void endWhenEmpty(double fps);
+    /// Whether they have, and all that there are have been given out or will be by finish().
+    bool hasEnded() const { return empty_ && empty_->hasEnded(); }
+    /// Null unless frames end.
+    EmptyWatch* emptyWatch() { return empty_.get(); }
+
     /// What comes before the first frame. @param goes_on is asked after each step
     /// @returns false where it does not go on
     bool warmUp(const std::function<bool()>& goes_on);
@@ -48,15 +57,18 @@ class FrameMaker {
     std::uint32_t present() const { return walking_ + seated_; }
 
   private:
+    void tellWhoHasGone();
     void receive(const Frame& frame);
 
     sim::Simulation& simulation_;
     Diagrams diagrams_;
     Receiver simulated_;
     recording::Audience audience_;
+    std::size_t walkers_;
     std::uint32_t seated_, warmup_, substeps_;
     recording::MotionRecorder recorder_;
     std::atomic<std::uint32_t> walking_{0};
+    std::unique_ptr<EmptyWatch> empty_;
     sim::FramePump pump_;  // last: its thread uses the others
 };
 
