@@ -158,6 +158,7 @@ struct BakeCharts {
 struct BakeDescription {
     std::filesystem::path output;  ///< the folder to make
     bool force = false;            ///< replace an existing bake
+    bool ends_when_empty = false;  ///< there may be fewer frames than expected, and all are there
 
     std::string name;         ///< the layout's
     std::string layout_text;  ///< the layout as it is baked: its file's bytes where nothing overrides them
@@ -165,8 +166,7 @@ struct BakeDescription {
     std::string inputs;  ///< hash of all that the bytes depend on; empty: not told
     std::uint64_t seed = 1;
     double fps = 24.0;
-    std::uint32_t frames = 0;      ///< expected
-    bool ends_when_empty = false;  ///< there may be fewer, and all are there
+    std::uint32_t frames = 0;  ///< expected
     std::uint32_t substeps = 1;
     double duration = 0.0;
     double warmup = 0.0;
