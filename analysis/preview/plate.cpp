@@ -399,7 +399,7 @@ void Plate::drawPieces(cairo_surface_t* canvas, const io::CrowdFrame& earlier, c
 /// What lies under people, who move over it: it changes slowly, and a film's encoder has nothing to do where
 /// it does not. @returns the frame of which it is, a few before at most
 io::CrowdFrame Plate::drawGround(const io::CrowdFrame& now) {
-    constexpr double kPerSecond = 6.0;  // trails fade by some 2 % of their colour from one to the next
+    constexpr double kPerSecond = 6.0;  // trails of six seconds fade by 3 % from one to the next
     const auto every = std::max(1u, static_cast<std::uint32_t>(std::lround(bake_.fps / kPerSecond)));
     if (ground_frame_ && now.index() - *ground_frame_ < every) return crowd_.frame(*ground_frame_);
     ground_frame_ = now.index();
