@@ -254,7 +254,8 @@ std::vector<gpu::DiagramSite> wallSites(const authoring::Scene& scene, const gpu
 Buffers::Buffers(const authoring::Scene& scene, const gpu::Parameters& parameter_values)
     : parameters(gl::makeBuffer("parameters", std::vector{parameter_values})),
       people(gl::makeBuffer("people", scene.people, kPerson)),
-      states(gl::makeBuffer("states", initialStates(scene), kPerson)),
+      states(gl::makeBuffer<gpu::AgentState>("states", scene.people.size(), kPerson,
+                                             [&] { return initialStates(scene); })),
       chests(gl::makeBuffer("chests", initialChests(scene), kPerson)),
       stages(gl::makeBuffer("stages", scene.stages, "stage")),
       plan_changes(gl::makeBuffer("plan changes", scene.plan_changes, "change of plans")),

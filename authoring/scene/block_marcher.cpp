@@ -109,25 +109,38 @@ class BlockMarcher {
     /// visit(node, unit vector that leads there) for the fine cells beside one.
     template <class Visit>
     void forEachSide(std::uint32_t node, Visit visit) const {
-        const Cell cell = cellOf(node);
-        // Cells before the first have huge numbers, and no node.
-        for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
-            const std::uint32_t next = blocks_.fineNode(cell.x + static_cast<std::uint32_t>(dx),
-                                                        cell.y + static_cast<std::uint32_t>(dy));
+        const std::uint32_t x = node % kSide, y = node / kSide % kSide;
+        const auto visitSide = [&](bool is_in_block, std::uint32_t next, int dx, int dy) {
+            if (!is_in_block) next = besideBlock(node, dx, dy);
             if (next != gpu::NO_INDEX) visit(next, glm::vec2(dx, dy));
-        }
+        };
+        visitSide(x > 0, node - 1, -1, 0);
+        visitSide(x + 1 < kSide, node + 1, 1, 0);
+        visitSide(y > 0, node - kSide, 0, -1);
+        visitSide(y + 1 < kSide, node + kSide, 0, 1);
     }
 
-    void spreadFromCell(std::uint32_t node) {
-        forEachSide(node, [&](std::uint32_t next, glm::vec2) {
-            if (map_.cost[next] < kUnreachable) solveCell(next);
-        });
+    std::uint32_t besideBlock(std::uint32_t node, int dx, int dy) const {
         const Cell cell = cellOf(node);
-        const std::uint32_t x = cell.x / kSide, y = cell.y / kSide;
-        if (cell.x % kSide == 0 && blocks_.isOpen(x - 1, y)) spreadInRoom(node, x - 1, y);
-        if (cell.x % kSide == kSide - 1 && blocks_.isOpen(x + 1, y)) spreadInRoom(node, x + 1, y);
-        if (cell.y % kSide == 0 && blocks_.isOpen(x, y - 1)) spreadInRoom(node, x, y - 1);
-        if (cell.y % kSide == kSide - 1 && blocks_.isOpen(x, y + 1)) spreadInRoom(node, x, y + 1);
+        // Cells before the first have huge numbers, and no node.
+        return blocks_.fineNode(cell.x + static_cast<std::uint32_t>(dx),
+                                cell.y + static_cast<std::uint32_t>(dy));
+    }
+
+    /// What is as near as it is was reached from what is nearer than both, and gains nothing from here.
+    void spreadFromCell(std::uint32_t node) {
+        const float reached = values_[node].distance;
+        forEachSide(node, [&](std::uint32_t next, glm::vec2) {
+            if (map_.cost[next] < kUnreachable && values_[next].distance > reached) solveCell(next);
+        });
+        const std::uint32_t i = node % kSide, j = node / kSide % kSide;
+        if (i % (kSide - 1) != 0 && j % (kSide - 1) != 0) return;
+        const std::uint32_t block = blocks_.fine_blocks[node / (kSide * kSide)];
+        const std::uint32_t x = block % blocks_.across, y = block / blocks_.across;
+        if (i == 0 && blocks_.isOpen(x - 1, y)) spreadInRoom(node, x - 1, y);
+        if (i == kSide - 1 && blocks_.isOpen(x + 1, y)) spreadInRoom(node, x + 1, y);
+        if (j == 0 && blocks_.isOpen(x, y - 1)) spreadInRoom(node, x, y - 1);
+        if (j == kSide - 1 && blocks_.isOpen(x, y + 1)) spreadInRoom(node, x, y + 1);
     }
 
     void spreadFromCorner(std::uint32_t node) {

@@ -15,6 +15,7 @@
 #include "authoring/scene/people.h"
 #include "authoring/scene/placed_bodies.h"
 #include "authoring/scene/traffic.h"
+#include "base/side_by_side.h"
 
 namespace throng::authoring {
 namespace {
@@ -102,7 +103,7 @@ class PeopleDrawer {
                 if (keepsToRoads(layout_)) person.flags |= gpu::PERSON_KEEPS_TO_ROADS;
                 addPerson(person);
             }
-            bringTogether(party);
+            bringTogether(party, scene_.people.size() - party.size);
         }
     }
 
@@ -116,18 +117,25 @@ class PeopleDrawer {
         if (list)  // nobody waits for company that comes later or goes another way
             parties = splitWhere(
                 parties, [&](std::uint64_t i) { return !goAlike(list->agents[i - 1], list->agents[i]); });
-        for (const Party& party : parties) {
-            for (std::uint64_t i = party.first; i < party.first + party.size; ++i) {
-                gpu::Person person = drawPerson(formation.people, random, i, group());
+        const std::size_t first = scene_.people.size();
+        scene_.people.resize(first + places.positions.size());
+        constexpr std::size_t kWorthAThread = 20'000;
+        doSideBySide(places.positions.size(), kWorthAThread, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                gpu::Person& person = scene_.people[first + i];
+                person = drawPerson(formation.people, random, i, group());
                 if (list) overrideListed(list->agents[i], person);
+                person.own_radius = person.radius;
                 person.spawn_position = rebase_.local(places.positions[i]);
                 const double start = startOf(formation, i);
                 person.spawn_time = static_cast<float>(start == 0.0 ? -layout_.simulation.warmup : start);
                 person.flags |= gpu::PERSON_FIXED_SPAWN;
-                addPerson(person);
             }
-            bringTogether(party);
-        }
+        });
+        for (std::size_t row = first; row < scene_.people.size(); ++row)
+            count(scene_.people[row], row == 0);
+        for (const Party& party : parties)
+            bringTogether(party, first + party.first);
     }
 
     /// Those who sit in a block that people walk to or leave.
@@ -147,16 +155,15 @@ class PeopleDrawer {
                 gpu::PERSON_FIXED_SPAWN | gpu::PERSON_PRESENT_AT_START | gpu::PERSON_SITS_AT_START;
             addPerson(person);
             const bool is_last = i + 1 == audience.size() || audience[i + 1].party != each.party;
-            if (is_last) bringTogether({each.party, static_cast<std::uint32_t>(i + 1 - each.party)});
+            const auto size = static_cast<std::uint32_t>(i + 1 - each.party);
+            if (is_last) bringTogether({each.party, size}, scene_.people.size() - size);
         }
     }
 
-    /// The last ones added are a party.
-    void bringTogether(const Party& party) {
-        const std::span<gpu::Person> members(scene_.people.end() - party.size, scene_.people.end());
-        const auto first = static_cast<std::uint32_t>(scene_.people.size() - party.size);
+    void bringTogether(const Party& party, std::size_t first_row) {
+        const std::span members = std::span(scene_.people).subspan(first_row, party.size);
         for (gpu::Person& person : members) {
-            person.party_first = first;
+            person.party_first = static_cast<std::uint32_t>(first_row);
             person.party_size = party.size;
         }
         walkTogether(members);
@@ -170,12 +177,14 @@ class PeopleDrawer {
     }
     std::uint32_t group() const { return static_cast<std::uint32_t>(scene_.groups.size() - 1); }
     void addPerson(const gpu::Person& person) {
-        const bool first = scene_.people.empty();
+        count(person, scene_.people.empty());
+        scene_.people.push_back(person);
+        scene_.people.back().own_radius = person.radius;
+    }
+    void count(const gpu::Person& person, bool first) {
         scene_.smallest_radius = first ? person.radius : std::min(scene_.smallest_radius, person.radius);
         scene_.largest_radius = first ? person.radius : std::max(scene_.largest_radius, person.radius);
         thinnest_ = first ? thicknessOf(person) : std::min(thinnest_, thicknessOf(person));
-        scene_.people.push_back(person);
-        scene_.people.back().own_radius = person.radius;
         ++scene_.queues.back().row_count;
     }
 

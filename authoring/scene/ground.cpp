@@ -181,6 +181,7 @@ void Ground::visitSpots(glm::vec2 lower, glm::vec2 upper, Visit visit) const {
 }
 
 const Sight& Ground::sight() {
+    if (const Sight* known = known_sight_.load(std::memory_order_acquire)) return *known;
     const std::lock_guard lock(making_);
     if (sight_) return *sight_;
     const FieldGrid& cells = blocks_.empty() ? grid_ : blocks_.cells;
@@ -207,6 +208,7 @@ const Sight& Ground::sight() {
                 [&](std::uint32_t cell) { sight_->setNarrow(cell % cells.width, cell / cells.width); });
     if (geometry_.slopes) narrowSlopes(*geometry_.slopes, *sight_);
     sight_->finish();
+    known_sight_.store(&*sight_, std::memory_order_release);
     return *sight_;
 }
 

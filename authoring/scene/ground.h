@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <list>
 #include <map>
@@ -106,6 +107,7 @@ class Ground {
     std::optional<WalkMap> maps_[kPurposes];
     std::optional<BlockMap> block_maps_[kPurposes];
     std::optional<Sight> sight_;
+    std::atomic<const Sight*> known_sight_ = nullptr;  // once it is there: it is asked for often
     std::optional<CoarseMap> coarse_[2];
     std::optional<std::vector<float>> road_distances_;
     mutable std::mutex solving_;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -15,6 +16,7 @@
 #include "authoring/scene/people.h"
 #include "authoring/scene/placed_bodies.h"
 #include "authoring/scene/walls.h"
+#include "base/side_by_side.h"
 
 namespace throng::authoring {
 namespace {
@@ -50,71 +52,69 @@ double wallGap(const Capsule& shape, const gpu::WallSegment& wall) {
            shape.thickness - wall.half_thickness;
 }
 
+/// The way of those of a formation who have none of their own.
+struct SharedWay {
+    Journey journey;
+    bool is_there = false;
+    bool is_alike = false;  // everybody walks the same stages: these, once somebody has them
+    std::uint32_t first_stage = 0, stage_count = 0;
+};
+
 class FormationPlacer {
   public:
-    FormationPlacer(const Placing& with, const std::vector<gpu::WallSegment>& closed_gates)
-        : with_(with), closed_gates_(closed_gates) {
+    FormationPlacer(const Placing& with, const std::vector<gpu::WallSegment>& closed_gates,
+                    const CloseStarts& close)
+        : with_(with), closed_gates_(closed_gates), close_(close) {
         std::size_t people = 0;
         for (std::size_t i = 0; i < with.layout.formations.size(); ++i)
             people += with.scene.queues[with.layout.flows.size() + i].row_count;
         with.scene.stages.reserve(with.scene.stages.size() + people);  // some have more than one
         with.scene.goals.reserve(with.scene.goals.size() + people);
-        bodies_.expect(people);
     }
 
     void place(const Formation& formation, std::size_t formation_index) {
         const std::size_t index = with_.layout.flows.size() + formation_index;
-        const FormationPlaces places = formationPlaces(formation, with_.layout.simulation.seed);
         const GroupRandom random(with_.layout.simulation.seed, formation.id);
         const Behaviour plan = planOf(with_.layout, formation);
-        Journey journey{fmt::format("formation `{}`", formation.id), formation.where};
-        const bool shared = !plan.states.front().to.places.empty();
-        if (shared) journey.stops = wayFrom(plan, plan.start);
-        const std::uint32_t state = formation.behaviour ? addBehaviour(formation, index, journey) : 0;
-        PlacedBodies later;  // who comes in at the same time
-        double since = 0.0;
+        SharedWay shared = sharedWay(formation, plan);
+        const std::uint32_t state = formation.behaviour ? addBehaviour(formation, index, shared.journey) : 0;
+        const FormationPlaces places = shared.is_there || formation.behaviour
+                                           ? FormationPlaces{}
+                                           : formationPlaces(formation, with_.layout.simulation.seed);
         std::uint64_t i = 0;
         forEachRow(with_.scene, index, [&](gpu::Person& person) {
             const Traveller traveller = travellerOf(with_.scene, person, index, i);
-            const double start = startOf(formation, i);
-            if (start != std::exchange(since, start)) later = {};
-            PlacedBodies& bodies = start == 0.0 ? bodies_ : later;
             person.first_stage = static_cast<std::uint32_t>(with_.scene.stages.size());
             addPause(formation, i, random, traveller, person);
-            if (formation.behaviour) {
+            if (formation.behaviour)
                 with_.behaviours.begin(person, rowOf(with_.scene, person), state);
-            } else {
-                const Destination* own = ownDestination(formation, i);
-                if (own) journey.stops = {goalState(*own, formation.arrival)};
-                const glm::vec2 from = addWay(formation, i, person);
-                if (own || shared) {
-                    person.stage_count += with_.itineraries.appendStages(journey, random, traveller);
-                    const std::uint32_t field = with_.scene.stages.back().field & ~gpu::FIELD_THEN_POINT;
-                    if (with_.routes.reachable(field, from) == kUnreachable)
-                        complaints_.add(i, "cannot reach its goal", "look for walls all round it");
-                } else {
-                    addGoal(formation, i, from,
-                            with_.rebase.local(goalOf(formation, places, i, traveller.leader)), person);
-                }
-            }
-            with_.scene.goals.push_back(with_.scene.stages.back().point);
-            const std::size_t first = with_.scene.stages.size() - 1 - wayOf(formation, i).size();
-            turn(formation, i, with_.scene.stages[first], person);
-            const bool has_room = bodies.hasRoom(person);
-            checkStart(i, start, person, has_room);
-            addPlanChanges(with_, plan, formation.people,
-                           {{person.spawn_position, person.spawn_position, person.spawn_position}}, random, i,
-                           index, person);
-            if (has_room) {
-                if (start == 0.0) person.flags |= gpu::PERSON_PRESENT_AT_START;
-                bodies.add(person);
-            }
+            else if (shared.is_there || ownDestination(formation, i))
+                addJourney(formation, i, random, traveller, shared, person);
+            else
+                addGoal(formation, i, addWay(formation, i, person),
+                        with_.rebase.local(goalOf(formation, places, i, traveller.leader)), person);
+            with_.scene.goals.push_back(lastOf(person).point);
             ++i;
         });
+        turnAll(formation, index, shared.is_there);
+        findRoomForAll(formation, index);
+        if (!turnsOf(plan).empty()) changePlans(formation, plan, random, index);
         complaints_.tell(formation, with_.diagnostics);
     }
 
   private:
+    const gpu::Stage& lastOf(const gpu::Person& person) const {
+        return with_.scene.stages[person.first_stage + person.stage_count - 1];
+    }
+
+    static SharedWay sharedWay(const Formation& formation, const Behaviour& plan) {
+        SharedWay shared{{fmt::format("formation `{}`", formation.id), formation.where}};
+        shared.is_there = !plan.states.front().to.places.empty();
+        if (shared.is_there) shared.journey.stops = wayFrom(plan, plan.start);
+        shared.is_alike = shared.is_there && Itineraries::isShared(shared.journey);
+        return shared;
+    }
+
     /// Those who do not set off at once first stop where they stand.
     void addPause(const Formation& formation, std::uint64_t i, const GroupRandom& random,
                   const Traveller& traveller, gpu::Person& person) {
@@ -136,6 +136,28 @@ class FormationPlacer {
             from = addLeg(formation, i, from, with_.rebase.local(waypoint.point),
                           static_cast<float>(waypoint.wait), &waypoint, person);
         return from;
+    }
+
+    /// A goal that is a place: somebody's own, or everybody's.
+    void addJourney(const Formation& formation, std::uint64_t i, const GroupRandom& random,
+                    const Traveller& traveller, SharedWay& shared, gpu::Person& person) {
+        addWay(formation, i, person);
+        std::vector<gpu::Stage>& stages = with_.scene.stages;
+        if (const Destination* own = ownDestination(formation, i)) {
+            shared.journey.stops = {goalState(*own, formation.arrival)};
+            person.stage_count += with_.itineraries.appendStages(shared.journey, random, traveller);
+        } else if (!shared.is_alike || shared.stage_count == 0) {
+            shared.first_stage = static_cast<std::uint32_t>(stages.size());
+            shared.stage_count = with_.itineraries.appendStages(shared.journey, random, traveller);
+            person.stage_count += shared.stage_count;
+        } else if (person.stage_count == 0) {
+            person.first_stage = shared.first_stage;
+            person.stage_count = shared.stage_count;
+        } else {  // after a pause or places of its own
+            for (std::uint32_t nth = 0; nth < shared.stage_count; ++nth)
+                stages.push_back(gpu::Stage(stages[shared.first_stage + nth]));
+            person.stage_count += shared.stage_count;
+        }
     }
 
     /// A goal that is a point.
@@ -211,6 +233,43 @@ class FormationPlacer {
                            [&](const LocalPolygon& solid) { return insidePolygon(solid, point); });
     }
 
+    /// Of who goes to a place: no way leads there.
+    bool isCutOff(const Formation& formation, std::uint64_t i, const gpu::Person& person) const {
+        const std::span<const Waypoint> way = wayOf(formation, i);
+        const glm::vec2 from = way.empty() ? person.spawn_position : with_.rebase.local(way.back().point);
+        return with_.routes.reachable(lastOf(person).field & ~gpu::FIELD_THEN_POINT, from) == kUnreachable;
+    }
+
+    /// @param share_place that all go to
+    void turnAll(const Formation& formation, std::size_t index, bool share_place) {
+        const std::span people = rowsOf(index);
+        std::vector<std::uint8_t> cut_off(people.size(), 0);
+        constexpr std::size_t kWorthAThread = 20'000;
+        doSideBySide(people.size(), kWorthAThread, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) {
+                turn(formation, i, *(&lastOf(people[i]) - wayOf(formation, i).size()), people[i]);
+                if (!formation.behaviour && (share_place || ownDestination(formation, i)))
+                    cut_off[i] = isCutOff(formation, i, people[i]);
+            }
+        });
+        for (std::size_t i = 0; i < people.size(); ++i)
+            if (cut_off[i]) complaints_.add(i, "cannot reach its goal", "look for walls all round it");
+    }
+
+    std::span<gpu::Person> rowsOf(std::size_t index) {
+        const gpu::SpawnQueue& queue = with_.scene.queues[index];
+        return std::span(with_.scene.people).subspan(queue.first_row, queue.row_count);
+    }
+
+    void changePlans(const Formation& formation, const Behaviour& plan, const GroupRandom& random,
+                     std::size_t index) {
+        std::uint64_t i = 0;
+        for (gpu::Person& person : rowsOf(index))
+            addPlanChanges(with_, plan, formation.people,
+                           {{person.spawn_position, person.spawn_position, person.spawn_position}}, random,
+                           i++, index, person);
+    }
+
     /// People look where their way leads.
     void turn(const Formation& formation, std::size_t i, const gpu::Stage& stage, gpu::Person& person) const {
         glm::vec2 ahead = wayBetween(with_.scene, person.spawn_position, stage.point);
@@ -236,8 +295,30 @@ class FormationPlacer {
         return depth;
     }
 
+    void findRoomForAll(const Formation& formation, std::size_t index) {
+        PlacedBodies later;  // who comes in at the same time
+        double since = 0.0;
+        std::uint64_t i = 0;
+        for (gpu::Person& person : rowsOf(index)) {
+            const double start = startOf(formation, i);
+            if (start != std::exchange(since, start)) later = {};
+            findRoom(i++, start, start == 0.0 ? bodies_ : later, person);
+        }
+    }
+
+    /// @param bodies of those who are there when it comes in
+    void findRoom(std::uint64_t i, double start, PlacedBodies& bodies, gpu::Person& person) {
+        const std::size_t row = rowOf(with_.scene, person);
+        const bool has_room = !close_.toBody(row) || bodies.hasRoom(person);
+        checkStart(i, start, person, has_room);
+        if (!has_room) return;
+        if (start == 0.0) person.flags |= gpu::PERSON_PRESENT_AT_START;
+        if (close_.toBody(row)) bodies.add(person);
+    }
+
     void checkStart(std::uint64_t i, double start, const gpu::Person& person, bool has_room) {
-        if (const float depth = depthInWalls(person); depth > 0.0f)
+        if (const float depth = close_.toWall(rowOf(with_.scene, person)) ? depthInWalls(person) : 0.0f;
+            depth > 0.0f)
             complaints_.add(i, "stands in a wall", "move it, or the wall",
                             fmt::format(" ({:.2f} m deep)", depth));
         if (start == 0.0)
@@ -265,7 +346,8 @@ class FormationPlacer {
 
     Placing with_;
     const std::vector<gpu::WallSegment>& closed_gates_;
-    PlacedBodies bodies_;
+    const CloseStarts& close_;
+    PlacedBodies bodies_;             // of those there at the start
     FormationComplaints complaints_;  // about the formation at hand
 };
 
@@ -298,8 +380,9 @@ std::vector<Routes::PointGoal> pointGoals(const Layout& layout, const Rebase& re
     return goals;
 }
 
-void placeFormations(const Placing& with, const std::vector<gpu::WallSegment>& closed_gates) {
-    FormationPlacer placer(with, closed_gates);
+void placeFormations(const Placing& with, const std::vector<gpu::WallSegment>& closed_gates,
+                     const CloseStarts& close) {
+    FormationPlacer placer(with, closed_gates, close);
     for (std::size_t i = 0; i < with.layout.formations.size(); ++i)
         placer.place(with.layout.formations[i], i);
 }

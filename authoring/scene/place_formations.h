@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "authoring/scene/close_starts.h"
 #include "authoring/scene/placing.h"
 
 namespace throng::authoring {
@@ -13,6 +14,7 @@ std::vector<Routes::PointGoal> pointGoals(const Layout& layout, const Rebase& re
 
 /// Gives the people of formations their places and ways.
 /// @param closed_gates at the start
-void placeFormations(const Placing& with, const std::vector<gpu::WallSegment>& closed_gates);
+void placeFormations(const Placing& with, const std::vector<gpu::WallSegment>& closed_gates,
+                     const CloseStarts& close);
 
 }  // namespace throng::authoring

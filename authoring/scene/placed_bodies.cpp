@@ -36,10 +36,6 @@ bool PlacedBodies::areInEachOther(const Body& a, const Body& b) {
                        shapeOf(b.position, b.heading, b.radius, b.half_axis)) < 0.0;
 }
 
-void PlacedBodies::expect(std::size_t people) {
-    bodies_.reserve(bodies_.size() + people);
-}
-
 bool PlacedBodies::hasRoom(const gpu::Person& person) const {
     const Body body{person.spawn_position, person.radius, person.half_axis, person.heading, kNone};
     for (int y = -1; y <= 1; ++y)

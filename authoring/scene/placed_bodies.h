@@ -19,8 +19,6 @@ float thicknessOf(const gpu::Person& person);
 /// Bodies already placed, so that nobody starts inside another.
 class PlacedBodies {
   public:
-    /// So many more will be added, or fewer.
-    void expect(std::size_t people);
     bool hasRoom(const gpu::Person& person) const;
     void add(const gpu::Person& person);
 

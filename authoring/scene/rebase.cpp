@@ -114,6 +114,7 @@ void placeGrid(const GridFormation& grid, const GroupRandom& random, FormationPl
     const glm::dvec2 across(std::cos(angle), std::sin(angle));
     const glm::dvec2 up(-across.y, across.x);
     const std::uint64_t count = grid.count ? grid.count : grid.rows * grid.columns;
+    places.positions.reserve(count);
     for (std::uint64_t person = 0; person < count; ++person) {
         // A count fills column by column, so that the last column is the one that is not full.
         const std::uint64_t column = grid.count ? person / grid.rows : person % grid.columns;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <stdexcept>
 
 #include "authoring/layout/layout_reader.h"
@@ -67,6 +68,9 @@ class SceneAssembly {
         if (terrain_mesh_ && layout_.terrain && !scene_.terrain) return std::nullopt;
         Routes routes = planRoutes();
         Itineraries itineraries(layout_, rebase_, geometry_, routes, diagnostics_, scene_);
+        std::future<CloseStarts> close = std::async(std::launch::async, [this] {
+            return closeStarts(scene_, geometry_, layout_.flows.size(), layout_.formations.size());
+        });
         itineraries.prepare();
         routes.solvePlanned();
         BehaviourTables behaviours(layout_, rebase_, geometry_, routes, itineraries, diagnostics_, scene_);
@@ -74,7 +78,7 @@ class SceneAssembly {
                            itineraries, behaviours, diagnostics_, scene_};
         for (std::size_t i = 0; i < layout_.flows.size(); ++i)
             routeFlow(with, layout_.flows[i], i);
-        placeFormations(with, closed_gates_);
+        placeFormations(with, closed_gates_, close.get());
         for (std::size_t group = 0; group < scene_.groups.size(); ++group)
             if (scene_.groups[group].block) seatAudience(group, behaviours);
         buildSeats(layout_, rebase_, scene_, diagnostics_);

@@ -40,6 +40,12 @@ struct Pieces {
     std::vector<std::uint32_t> of;  // kNone where no body can be
 };
 
+/// Ground that people want to get to.
+struct Goal {
+    Cells cells;
+    std::map<const Pieces*, std::vector<std::uint32_t>> pieces{};  // that it lies in, in order
+};
+
 class WaysChecker {
   public:
     WaysChecker(const Layout& layout, const Rebase& rebase, const WalkGeometry& geometry, Routes& routes,
@@ -93,8 +99,12 @@ class WaysChecker {
         if (scene_.queues[group].row_count == 0) return;
         const Kind kind = kindOf(group, flow.start > 0.0 ? flow.start : -layout_.simulation.warmup);
         Cells from = cellsInPolygon(grid_, routes_.outline(flow.from, Routes::kEntryDepth));
-        for (const BehaviourState& stop : flow.via)
-            from = checkLeg(flow.id, kind, from, stop.to);
+        for (const BehaviourState& stop : flow.via) {
+            checkLeg(flow.id, kind, from, stop.to);
+            from.clear();  // those go on from there
+            for (const Place& place : stop.to.places)
+                from.insert(from.end(), goalAt(place).cells.begin(), goalAt(place).cells.end());
+        }
         checkLeg(flow.id, kind, from, flow.to);
     }
 
@@ -111,13 +121,20 @@ class WaysChecker {
             const Cells from = cellsNear(scene_.people[queue.first_row + i].spawn_position, body);
             const auto* list = std::get_if<ListFormation>(&formation.shape);
             const Destination* own = list && list->agents[i].to ? &*list->agents[i].to : nullptr;
-            if (place || own)
+            if (place || own) {
                 checkLeg(formation.id, kind, from, own ? *own : *place);
-            else
-                follow(formation.id, kind, from,
-                       cellsNear(scene_.goals[queue.first_row + i],
-                                 body + static_cast<float>(formation.goal_tolerance)));
+            } else {
+                Goal goal{cellsNear(scene_.goals[queue.first_row + i],
+                                    body + static_cast<float>(formation.goal_tolerance))};
+                follow(formation.id, kind, from, goal);
+            }
         }
+    }
+
+    Goal& goalAt(const Place& place) {
+        const auto [goal, is_new] = goals_.try_emplace({place.kind, place.index, place.number});
+        if (is_new) goal->second.cells = cellsInPolygon(grid_, routes_.outline(place, Routes::kTargetDepth));
+        return goal->second;
     }
 
     Cells cellsNear(glm::vec2 point, float reach) const {
@@ -128,28 +145,21 @@ class WaysChecker {
         return cells;
     }
 
-    /// @returns where those are who have been there
-    Cells checkLeg(const std::string& who, const Kind& kind, const Cells& from, const Destination& to) {
-        Cells all;
-        for (const Place& place : to.places) {
-            const Cells cells = cellsInPolygon(grid_, routes_.outline(place, Routes::kTargetDepth));
+    void checkLeg(const std::string& who, const Kind& kind, const Cells& from, const Destination& to) {
+        for (const Place& place : to.places)
             if (to.kind != Destination::Kind::nearest)
-                follow(who, kind, from, cells);
+                follow(who, kind, from, goalAt(place));
             else
-                checkOneOfSeveral(who, kind, from, cells, place);
-            all.insert(all.end(), cells.begin(), cells.end());
-        }
-        return all;
+                checkOneOfSeveral(who, kind, from, place);
     }
 
     /// Nobody notices at a route to the nearest of several places that one of them cannot be had.
-    void checkOneOfSeveral(const std::string& who, const Kind& kind, const Cells& from, const Cells& to,
-                           const Place& place) {
+    void checkOneOfSeveral(const std::string& who, const Kind& kind, const Cells& from, const Place& place) {
         constexpr std::size_t kMostShut = 20;  // each takes a field
         const std::string name = routes_.name(place);
         const auto known = std::ranges::find(shut_, name, &Shut::name);
         if (known != shut_.end() && std::ranges::find(known->who, who) != known->who.end()) return;
-        if (follow(who, kind, from, to) || shut_.size() == kMostShut) return;
+        if (follow(who, kind, from, goalAt(place)) || shut_.size() == kMostShut) return;
         std::vector<glm::vec2> starts;
         for (const std::uint32_t cell : from)
             starts.push_back(cellCentre(grid_, cell % grid_.width, cell / grid_.width));
@@ -158,14 +168,22 @@ class WaysChecker {
         end->who.push_back(who);
     }
 
+    static const std::vector<std::uint32_t>& piecesOf(Goal& goal, const Pieces& ground) {
+        const auto [known, is_new] = goal.pieces.try_emplace(&ground);
+        std::vector<std::uint32_t>& pieces = known->second;
+        if (!is_new) return pieces;
+        for (const std::uint32_t cell : goal.cells)
+            if (ground.of[cell] != kNone) pieces.push_back(ground.of[cell]);
+        std::ranges::sort(pieces);
+        pieces.erase(std::unique(pieces.begin(), pieces.end()), pieces.end());
+        return pieces;
+    }
+
     /// Tells of ways that are none for these. @returns whether any leads there, whoever walks it
-    bool follow(const std::string& who, const Kind& kind, const Cells& from, const Cells& to) {
+    bool follow(const std::string& who, const Kind& kind, const Cells& from, Goal& to) {
         const Pieces* narrow = piecesFor(kind);
         if (!narrow) return true;
-        std::vector<std::uint32_t> reached;
-        for (const std::uint32_t cell : to)
-            if (narrow->of[cell] != kNone) reached.push_back(narrow->of[cell]);
-        std::ranges::sort(reached);
+        const std::vector<std::uint32_t>& reached = piecesOf(to, *narrow);
         bool starts = false;
         for (const std::uint32_t cell : from) {
             const std::uint32_t piece = narrow->of[cell];
@@ -175,7 +193,7 @@ class WaysChecker {
         }
         // Starts and goals without room are told elsewhere.
         if (!starts || reached.empty()) return true;
-        const auto end = endOfWay(*narrow, from, to);
+        const auto end = endOfWay(*narrow, from, to.cells);
         if (end) remember(who, kind, *end);
         return end.has_value();
     }
@@ -346,6 +364,7 @@ class WaysChecker {
     FieldGrid grid_;
     std::vector<bool> widest_;
     std::map<Kind, Pieces> pieces_;
+    std::map<std::tuple<Place::Kind, std::size_t, std::size_t>, Goal> goals_;
     std::vector<End> ends_;
     std::vector<Shut> shut_;
 };

@@ -139,6 +139,20 @@ class WordTexture {
     std::shared_ptr<const Contents> contents_;
 };
 
+/// A buffer that holds so many items from the start, which are made only where somebody will read them.
+/// @param per what there is one of them for
+/// @param make () -> std::vector<T> of `count`
+template <class T, class Make>
+Buffer makeBuffer(const std::string& name, std::size_t count, const std::string& per, Make make) {
+    Buffer buffer(name, Room{count, sizeof(T), per});
+    if (BufferCount::kept()) return buffer;
+    if (count == 0)
+        buffer.fill(0);  // there is room for one word all the same
+    else
+        buffer.upload(make());
+    return buffer;
+}
+
 /// A buffer that holds `items` from the start.
 /// @param per what there is one of them for
 template <class T>
