@@ -30,19 +30,25 @@ nlohmann::ordered_json costsJson(const sim::CostModel& model, const gl::Device& 
     return {{"device", device.name}, {"output", calibrationPath(device).string()}, {"costs", costs}};
 }
 
-void run(int device, bool as_json) {
-    const gl::Context context({device, false});
+struct CalibrateOptions {
+    int device = -1;
+    int rounds = 7;
+    bool as_json = false;
+};
+
+void run(const CalibrateOptions& options) {
+    const gl::Context context({options.device, false});
     const gl::Timer timer(context.device().software);
     const bool terminal = isatty(STDERR_FILENO) != 0;
     const sim::CostModel model =
-        sim::calibrate(gl::ShaderLibrary(), timer, context.device().name, [&](double share) {
+        sim::calibrate(gl::ShaderLibrary(), timer, context.device().name, options.rounds, [&](double share) {
             fmt::print(stderr, "{}calibrating {} {:3.0f} %{}", terminal ? "\r" : "", context.device().name,
                        100.0 * share, terminal ? "" : "\n");
         });
     if (terminal) fmt::print(stderr, "\n");
     context.check("calibrating");
     saveCalibration(context.device(), model);
-    if (as_json) return sayJson(costsJson(model, context.device()));
+    if (options.as_json) return sayJson(costsJson(model, context.device()));
     fmt::print("{:48} {:>9} {:>9} {:>9} {:>11}\n", "method", "base ms", "ns/pixel", "ns/site", "ns/covered");
     for (const sim::MethodCost& cost : model.costs)
         fmt::print("{:48} {:9.3f} {:9.3f} {:9.2f} {:11.3f}\n", describe(cost), cost.base_ms, cost.pixel_ns,
@@ -64,15 +70,17 @@ void run(int device, bool as_json) {
 void addCalibrate(CLI::App& app) {
     CLI::App* command = app.add_subcommand(
         "calibrate", "Measure the device, so that `auto` takes its fastest way to build the diagram");
-    auto device = std::make_shared<int>(-1);
-    command->add_option("--device", *device, "This device (`throng devices` lists them)");
+    auto options = std::make_shared<CalibrateOptions>();
+    command->add_option("--device", options->device, "This device (`throng devices` lists them)");
+    command->add_option("--rounds", options->rounds, "How often everything is timed; medians count")
+        ->check(CLI::Range(1, 1000))
+        ->capture_default_str();
     command->footer(
         "Kept in the cache folder ($XDG_CACHE_HOME/throng), one file for each device and driver; without it, "
         "bakes\n"
         "use a built-in table. Bakes have the same bytes either way.\n\nExample:\n  throng calibrate");
-    auto as_json = std::make_shared<bool>(false);
-    command->add_flag("--json", *as_json, "Print a JSON document");
-    command->callback([device, as_json] { run(*device, *as_json); });
+    command->add_flag("--json", options->as_json, "Print a JSON document");
+    command->callback([options] { run(*options); });
 }
 
 }  // namespace throng::cli

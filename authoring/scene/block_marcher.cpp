@@ -155,8 +155,12 @@ class BlockMarcher {
         return map_.one_way.empty() || glm::dot(map_.one_way[node], direction) >= gpu::AGAINST_ONE_WAY;
     }
 
+    bool isBetter(std::uint32_t node, float distance) const {
+        return distance < values_[node].distance - kBetter;
+    }
+
     void improve(std::uint32_t node, const Value& found) {
-        if (found.distance >= values_[node].distance - kBetter) return;
+        if (!isBetter(node, found.distance)) return;
         values_[node] = found;
         fronts_.push({found.distance, node});
     }
@@ -178,12 +182,16 @@ class BlockMarcher {
         const Value& near = *best[first];
         const Value* far = best[1 - first];
         const float step = map_.cost[node] * h_;
+        constexpr float kLeastShare =
+            0.7f;  // of a step that a cell is further than its nearest: half of a diagonal
+        if (!isBetter(node, near.distance + kLeastShare * step)) return;
         if (!far || far->distance - near.distance >= step)
             return improve(node, {near.distance + step, near.length + h_, towards[first]});
         const float difference = far->distance - near.distance;
         const float distance =
             near.distance +
             0.5f * (difference + std::sqrt(std::max(0.0f, 2.0f * step * step - difference * difference)));
+        if (!isBetter(node, distance)) return;
         const float fall = distance - near.distance, other_fall = std::max(distance - far->distance, 0.0f);
         const float slope = std::hypot(fall, other_fall);
         improve(node,
@@ -196,9 +204,11 @@ class BlockMarcher {
         const float side = blocks_.side(), half = 0.5f * h_;
         const auto cells = [&](std::uint32_t first_x, std::uint32_t first_y, std::uint32_t dx,
                                std::uint32_t dy, glm::vec2 place) {
-            if (blocks_.fineNode(first_x, first_y) == gpu::NO_INDEX) return;
+            const std::uint32_t first = blocks_.fineNode(first_x, first_y);
+            if (first == gpu::NO_INDEX) return;
+            // All in one block.
             for (std::uint32_t i = 0; i < kSide; ++i)
-                room.add(blocks_.fineNode(first_x + i * dx, first_y + i * dy),
+                room.add(first + i * (dx + dy * kSide),
                          place + glm::vec2(static_cast<int>(dx), static_cast<int>(dy)) *
                                      (h_ * static_cast<float>(i)));
         };
@@ -222,37 +232,52 @@ class BlockMarcher {
             ++here;
         if (here == room.count) return;
         const float reached = values_[node].distance;
-        for (const std::size_t beside : {(here + 1) % room.count, (here + room.count - 1) % room.count})
+        for (const std::size_t beside : {(here + 1) % room.count, (here + room.count - 1) % room.count}) {
+            const Edge edge = edgeOf(room, here, beside);
             for (std::size_t i = 0; i < room.count; ++i)
                 if (i != here && i != beside && values_[room.nodes[i]].distance > reached)
-                    crossRoom(room, i, here, beside);
+                    crossRoom(room, i, edge);
+        }
         // And along the edge.
         for (const std::size_t beside : {(here + 1) % room.count, (here + room.count - 1) % room.count})
             goStraight(room, beside, here, 0.0f, values_[node]);
     }
 
-    /// From a node through the edge between two others, of which the first is reached.
-    void crossRoom(const Room& room, std::size_t from, std::size_t a, std::size_t b) {
+    /// Between two nodes beside each other, of which the first is reached.
+    struct Edge {
+        std::size_t a, b;
+        Value first, second;
+        glm::vec2 way;    // m, from the first to the second
+        float per_metre;  // of the way
+        float least;      // m, the lesser of the distances
+    };
+
+    Edge edgeOf(const Room& room, std::size_t a, std::size_t b) const {
+        const Value &first = values_[room.nodes[a]], &second = values_[room.nodes[b]];
+        const glm::vec2 way = room.at[b] - room.at[a];
+        return {a, b, first, second, way, 1.0f / glm::length(way), std::min(first.distance, second.distance)};
+    }
+
+    /// From a node through such an edge.
+    void crossRoom(const Room& room, std::size_t from, const Edge& edge) {
         const std::uint32_t node = room.nodes[from];
-        const Value& first = values_[room.nodes[a]];
-        const Value& second = values_[room.nodes[b]];
+        const Value &first = edge.first, &second = edge.second;
         const float cost = map_.cost[node];
         if (cost == kUnreachable) return;
-        if (second.distance == kUnreachable) return goStraight(room, from, a, 0.0f, first);
-        const glm::vec2 edge = room.at[b] - room.at[a], offset = room.at[from] - room.at[a];
-        const float per_metre = 1.0f / glm::length(edge);
-        const float away = std::abs(offset.x * edge.y - offset.y * edge.x) * per_metre;
-        if (std::min(first.distance, second.distance) + cost * away >= values_[node].distance - kBetter)
+        if (second.distance == kUnreachable) return goStraight(room, from, edge.a, 0.0f, first);
+        const glm::vec2 offset = room.at[from] - room.at[edge.a];
+        const float away = std::abs(offset.x * edge.way.y - offset.y * edge.way.x) * edge.per_metre;
+        if (edge.least + cost * away >= values_[node].distance - kBetter)
             return;  // no way through there is shorter
-        const float slope = (second.distance - first.distance) / cost * per_metre;
-        if (std::abs(slope) >= 1.0f) return goStraight(room, from, a, 0.0f, first);
-        const float along = glm::dot(offset, edge) * per_metre;
+        const float slope = (second.distance - first.distance) / cost * edge.per_metre;
+        if (std::abs(slope) >= 1.0f) return goStraight(room, from, edge.a, 0.0f, first);
+        const float along = glm::dot(offset, edge.way) * edge.per_metre;
         const float through = along - slope * away / std::sqrt(1.0f - slope * slope);
-        const float share = std::clamp(through * per_metre, 0.0f, 1.0f);
+        const float share = std::clamp(through * edge.per_metre, 0.0f, 1.0f);
         const Value between{first.distance + share * (second.distance - first.distance),
                             first.length + share * (second.length - first.length),
                             {}};
-        goStraight(room, from, a, share, between, b);
+        goStraight(room, from, edge.a, share, between, edge.b);
     }
 
     /// Straight to a point on the way from a to b, of which this is known.

@@ -105,14 +105,14 @@ std::vector<DiagramContestant> calibrationContestants() {
 }
 
 CostModel calibrate(const gl::ShaderLibrary& library, const gl::Timer& timer, const std::string& device,
-                    const std::function<void(double)>& progress) {
+                    int rounds, const std::function<void(double)>& progress) {
     const std::vector<DiagramContestant> contestants = calibrationContestants();
     const std::vector<DiagramCase> cases = {{64, 4, 512},     {1024, 8, 512},   {16384, 2, 512},
                                             {256, 8, 1024},   {4096, 8, 1024},  {4096, 16, 1024},
                                             {16384, 8, 1024}, {65536, 4, 1024}, {262144, 2, 1024},
                                             {1024, 8, 2048},  {16384, 4, 2048}, {65536, 8, 2048}};
     DiagramBenchmark benchmark;
-    benchmark.rounds = 7;
+    benchmark.rounds = rounds;
     std::vector<std::vector<CalibrationSample>> samples(contestants.size());
     for (std::size_t i = 0; i < cases.size(); ++i) {
         const DiagramCase& setup = cases[i];

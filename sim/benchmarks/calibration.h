@@ -23,10 +23,11 @@ MethodCost fitCost(DiagramMethod method, const GatherShape& gather,
 /// The methods that `auto` may take: all exact ones but comparing everything with everything.
 std::vector<DiagramContestant> calibrationContestants();
 
-/// Times all of them over windows of 512 to 2,048 px and 64 to 262,144 sites: about half a minute on two
-/// cores.
+/// Times all of them over windows of 512 to 2,048 px and 64 to 262,144 sites: of seven rounds about half a
+/// minute on two cores.
+/// @param rounds how often each is timed; medians count
 /// @param progress is told the share done, 0 to 1
 CostModel calibrate(const gl::ShaderLibrary& library, const gl::Timer& timer, const std::string& device,
-                    const std::function<void(double)>& progress);
+                    int rounds, const std::function<void(double)>& progress);
 
 }  // namespace throng::sim
