@@ -135,8 +135,8 @@ class BlockMarcher {
         });
         const std::uint32_t i = node % kSide, j = node / kSide % kSide;
         if (i % (kSide - 1) != 0 && j % (kSide - 1) != 0) return;
-        const std::uint32_t block = blocks_.fine_blocks[node / (kSide * kSide)];
-        const std::uint32_t x = block % blocks_.across, y = block / blocks_.across;
+        const Cell cell = cellOf(node);
+        const std::uint32_t x = cell.x / kSide, y = cell.y / kSide;
         if (i == 0 && blocks_.isOpen(x - 1, y)) spreadInRoom(node, x - 1, y);
         if (i == kSide - 1 && blocks_.isOpen(x + 1, y)) spreadInRoom(node, x + 1, y);
         if (j == 0 && blocks_.isOpen(x, y - 1)) spreadInRoom(node, x, y - 1);
@@ -182,8 +182,8 @@ class BlockMarcher {
         const Value& near = *best[first];
         const Value* far = best[1 - first];
         const float step = map_.cost[node] * h_;
-        constexpr float kLeastShare =
-            0.7f;  // of a step that a cell is further than its nearest: half of a diagonal
+        // A cell is at least half of a diagonal further than the nearest beside it.
+        constexpr float kLeastShare = 0.7f;  // of a step
         if (!isBetter(node, near.distance + kLeastShare * step)) return;
         if (!far || far->distance - near.distance >= step)
             return improve(node, {near.distance + step, near.length + h_, towards[first]});
@@ -267,8 +267,7 @@ class BlockMarcher {
         if (second.distance == kUnreachable) return goStraight(room, from, edge.a, 0.0f, first);
         const glm::vec2 offset = room.at[from] - room.at[edge.a];
         const float away = std::abs(offset.x * edge.way.y - offset.y * edge.way.x) * edge.per_metre;
-        if (edge.least + cost * away >= values_[node].distance - kBetter)
-            return;  // no way through there is shorter
+        if (!isBetter(node, edge.least + cost * away)) return;  // no way through there is shorter
         const float slope = (second.distance - first.distance) / cost * edge.per_metre;
         if (std::abs(slope) >= 1.0f) return goStraight(room, from, edge.a, 0.0f, first);
         const float along = glm::dot(offset, edge.way) * edge.per_metre;

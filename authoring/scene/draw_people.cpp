@@ -119,8 +119,7 @@ class PeopleDrawer {
                 parties, [&](std::uint64_t i) { return !goAlike(list->agents[i - 1], list->agents[i]); });
         const std::size_t first = scene_.people.size();
         scene_.people.resize(first + places.positions.size());
-        constexpr std::size_t kWorthAThread = 20'000;
-        doSideBySide(places.positions.size(), kWorthAThread, [&](std::size_t begin, std::size_t end) {
+        doSideBySide(places.positions.size(), kPeopleWorthAThread, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 gpu::Person& person = scene_.people[first + i];
                 person = drawPerson(formation.people, random, i, group());

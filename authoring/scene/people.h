@@ -11,6 +11,9 @@
 
 namespace throng::authoring {
 
+/// To draw or turn so many takes some milliseconds.
+inline constexpr std::size_t kPeopleWorthAThread = 20'000;
+
 /// How many characters the cast has: Person::variation is below this.
 inline constexpr std::uint32_t kVariations = 12;
 

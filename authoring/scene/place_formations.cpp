@@ -242,10 +242,9 @@ class FormationPlacer {
 
     /// @param share_place that all go to
     void turnAll(const Formation& formation, std::size_t index, bool share_place) {
-        const std::span people = rowsOf(index);
+        const std::span people = rowsOf(with_.scene, index);
         std::vector<std::uint8_t> cut_off(people.size(), 0);
-        constexpr std::size_t kWorthAThread = 20'000;
-        doSideBySide(people.size(), kWorthAThread, [&](std::size_t first, std::size_t last) {
+        doSideBySide(people.size(), kPeopleWorthAThread, [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i) {
                 turn(formation, i, *(&lastOf(people[i]) - wayOf(formation, i).size()), people[i]);
                 if (!formation.behaviour && (share_place || ownDestination(formation, i)))
@@ -256,15 +255,10 @@ class FormationPlacer {
             if (cut_off[i]) complaints_.add(i, "cannot reach its goal", "look for walls all round it");
     }
 
-    std::span<gpu::Person> rowsOf(std::size_t index) {
-        const gpu::SpawnQueue& queue = with_.scene.queues[index];
-        return std::span(with_.scene.people).subspan(queue.first_row, queue.row_count);
-    }
-
     void changePlans(const Formation& formation, const Behaviour& plan, const GroupRandom& random,
                      std::size_t index) {
         std::uint64_t i = 0;
-        for (gpu::Person& person : rowsOf(index))
+        for (gpu::Person& person : rowsOf(with_.scene, index))
             addPlanChanges(with_, plan, formation.people,
                            {{person.spawn_position, person.spawn_position, person.spawn_position}}, random,
                            i++, index, person);
@@ -299,7 +293,7 @@ class FormationPlacer {
         PlacedBodies later;  // who comes in at the same time
         double since = 0.0;
         std::uint64_t i = 0;
-        for (gpu::Person& person : rowsOf(index)) {
+        for (gpu::Person& person : rowsOf(with_.scene, index)) {
             const double start = startOf(formation, i);
             if (start != std::exchange(since, start)) later = {};
             findRoom(i++, start, start == 0.0 ? bodies_ : later, person);

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "authoring/diagnostics.h"
@@ -27,12 +28,18 @@ struct Placing {
     Scene& scene;
 };
 
+/// Those of a group, in its order.
+template <class SomeScene>
+auto rowsOf(SomeScene& scene, std::size_t group_index) {
+    const gpu::SpawnQueue& queue = scene.queues[group_index];
+    return std::span(scene.people).subspan(queue.first_row, queue.row_count);
+}
+
 /// Calls visit(person) for those of a group, in its order.
 template <class SomeScene, class Visit>
 void forEachRow(SomeScene& scene, std::size_t group_index, Visit visit) {
-    const gpu::SpawnQueue& queue = scene.queues[group_index];
-    for (std::uint32_t row = queue.first_row; row < queue.first_row + queue.row_count; ++row)
-        visit(scene.people[row]);
+    for (auto& person : rowsOf(scene, group_index))
+        visit(person);
 }
 
 std::size_t rowOf(const Scene& scene, const gpu::Person& person);
