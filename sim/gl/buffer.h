@@ -143,8 +143,9 @@ class WordTexture {
 /// @param per what there is one of them for
 /// @param make () -> std::vector<T> of `count`
 template <class T, class Make>
-Buffer makeBuffer(const std::string& name, std::size_t count, const std::string& per, Make make) {
-    Buffer buffer(name, Room{count, sizeof(T), per});
+Buffer makeBuffer(const std::string& name, std::size_t count, const std::string& per, Make make,
+                  Buffer::Use use = Buffer::Use::device) {
+    Buffer buffer(name, Room{count, sizeof(T), per}, use);
     if (BufferCount::kept()) return buffer;
     if (count == 0)
         buffer.fill(0);  // there is room for one word all the same
@@ -154,16 +155,11 @@ Buffer makeBuffer(const std::string& name, std::size_t count, const std::string&
 }
 
 /// A buffer that holds `items` from the start.
-/// @param per what there is one of them for
 template <class T>
 Buffer makeBuffer(const std::string& name, const std::vector<T>& items, const std::string& per = "",
                   Buffer::Use use = Buffer::Use::device) {
-    Buffer buffer(name, Room{items.size(), sizeof(T), per}, use);
-    if (items.empty())
-        buffer.fill(0);  // there is room for one word all the same
-    else
-        buffer.upload(items);
-    return buffer;
+    return makeBuffer<T>(
+        name, items.size(), per, [&]() -> const std::vector<T>& { return items; }, use);
 }
 
 }  // namespace throng::gl
