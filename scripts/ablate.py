@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What each rule of motion buys: bakes scenarios with one rule after the other switched off, measures them and writes a
-table.
+"""What each rule of motion buys: bakes scenarios with one rule after the other switched off, measures them and writes
+tables.
 
 Usage: ablate.py THRONG -o FOLDER [--scenario corridor crossing] [--seed 1 2 3] [--only cushion all ...]
        ablate.py --list      what can be left out
@@ -17,6 +17,7 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+import textwrap
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SCHEMA = ROOT / "authoring" / "layout" / "throng-layout.schema.json"
@@ -84,16 +85,44 @@ def measured(program, layout, settings):
         return json.loads(result.stdout)
 
 
-def table(rows):
-    lines = ["| scenario | seed | | at goal by T | all there after | deepest overlap, % of 2a "
-             "| overlapping pairs, % of people | acceleration, 99th percentile | steps backwards |",
-             "| --- | --- | --- | --- | --- | --- | --- | --- | --- |"]
+def there(row):
+    return f"{row['seconds']:.0f} s" if row["arrived"] == row["agents"] else f"{row['arrived']:,} of {row['agents']:,}"
+
+
+def overlap(row):
+    pairs = row["overlapping_percent"]
+    return f"{row['deepest_overlap_percent']:.1f}" + (f" ({pairs:.3f})" if pairs >= 0.0005 else "")
+
+
+# What a table of its own is about -> what stands in its cells.
+FIGURES = {
+    "All there after, or how many are at T": there,
+    "Steps backwards, %": lambda row: f"{row['backward_percent']:.2f}",
+    "Deepest overlap, % of 2a (overlapping pairs, % of people, where there are any)": overlap,
+    "Acceleration, 99th percentile, m/s^2": lambda row: f"{row['acceleration_p99']:.1f}",
+}
+
+
+def tables(rows):
+    """A table for each figure: what is left out downwards, scenarios across. What changes nothing is only named."""
+    columns = list(dict.fromkeys((row["scenario"], row["seed"]) for row in rows))
+    seeds = len({seed for _, seed in columns}) > 1
+    cells = {}  # of each variant: what is known of it, by column
     for row in rows:
-        after = f"{row['seconds']:.0f} s" if row["arrived"] == row["agents"] else "-"
-        lines.append(f"| {row['scenario']} | {row['seed']} | {row['variant']} | {row['arrived']:,} | {after} "
-                     f"| {row['deepest_overlap_percent']:.1f} | {row['overlapping_percent']:.3f} "
-                     f"| {row['acceleration_p99']:.1f} m/s^2 | {row['backward_percent']:.2f} % |")
-    return "\n".join(lines)
+        cells.setdefault(row["variant"], {})[row["scenario"], row["seed"]] = row
+    usual = next(iter(cells.values()))
+    same = [name for name, known in cells.items() if known is not usual and
+            all(figure(row) == figure(usual[column]) for column, row in known.items() for figure in FIGURES.values())]
+    head = "| | " + " | ".join(f"{name}, seed {seed}" if seeds else name for name, seed in columns) + " |"
+    lines = []
+    for title, figure in FIGURES.items():
+        lines += [f"{title}:", "", head, "| --- |" + " --- |" * len(columns)]
+        lines += [f"| {name} | " + " | ".join(figure(known[column]) if column in known else "" for column in columns) + " |"
+                  for name, known in cells.items() if name not in same]
+        lines.append("")
+    if same:
+        lines.append(textwrap.fill(f"The same figures as with all rules: {'; '.join(same)}.", 120))
+    return "\n".join(lines).strip()
 
 
 def row_of(scenario, seed, name, variant, report):
@@ -135,7 +164,7 @@ def run(program, scenarios, seeds, only, always, folder):
                     return row_of(layout.stem, seed or "own", name, variant, measured(program, layout, settings))
 
                 rows.append(results.row(hash_of(pathlib.Path(program), layout, settings), measure))
-                (folder / "table.md").write_text(table(rows) + "\n")
+                (folder / "tables.md").write_text(tables(rows) + "\n")
     return rows
 
 
@@ -156,7 +185,7 @@ def main():
     if not options.program or not options.output:
         parser.error("needs the program and -o FOLDER")
     options.output.mkdir(parents=True, exist_ok=True)
-    print(table(run(options.program, options.scenario, options.seed, options.only, options.settings, options.output)))
+    print(tables(run(options.program, options.scenario, options.seed, options.only, options.settings, options.output)))
 
 
 if __name__ == "__main__":

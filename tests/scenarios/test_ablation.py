@@ -83,5 +83,38 @@ def test_nothing_is_measured_twice(tmp_path):
     first = ablate(tmp_path, *words)
     assert first.stderr.count("...") == 4
     again = ablate(tmp_path, *words)
-    assert again.stdout == first.stdout == (tmp_path / "table.md").read_text()
+    assert again.stdout == first.stdout == (tmp_path / "tables.md").read_text()
     assert not again.stderr
+
+
+def test_tables_have_rules_downwards_and_scenarios_across_and_name_what_changes_nothing():
+    module = ablate_module()
+
+    def row(scenario, variant, **known):
+        usual = {"agents": 100, "arrived": 100, "seconds": 80.6, "deepest_overlap_percent": 0.5,
+                 "overlapping_percent": 0.0, "acceleration_p99": 2.5, "backward_percent": 0.88}
+        return {"scenario": scenario, "seed": "own", "variant": variant, **usual, **known}
+
+    told = module.tables([
+        row("door", "all rules"),
+        row("door", "without: Patience", arrived=94),
+        row("door", "without: Nothing"),
+        row("stream", "all rules", overlapping_percent=0.1481, deepest_overlap_percent=6.44),
+        row("stream", "without: Patience", backward_percent=0.123),
+        row("stream", "without: Nothing", overlapping_percent=0.1481, deepest_overlap_percent=6.44),
+        row("stream", "without: Headway", seconds=49)])
+    tables = [part.splitlines() for part in told.split("\n\n")]
+    assert tables[1] == ["| | door | stream |", "| --- | --- | --- |", "| all rules | 81 s | 81 s |",
+                         "| without: Patience | 94 of 100 | 81 s |", "| without: Headway |  | 49 s |"]
+    assert tables[3][2:4] == ["| all rules | 0.88 | 0.88 |", "| without: Patience | 0.88 | 0.12 |"]
+    assert tables[5][2] == "| all rules | 0.5 | 6.4 (0.148) |"
+    assert tables[7][2] == "| all rules | 2.5 | 2.5 |"
+    assert told.endswith("The same figures as with all rules: without: Nothing.")
+
+
+def test_tables_of_several_seeds_have_a_column_for_each():
+    module = ablate_module()
+    rows = [{"scenario": "door", "seed": seed, "variant": "all rules", "agents": 1, "arrived": 1, "seconds": seed,
+             "deepest_overlap_percent": 0, "overlapping_percent": 0, "acceleration_p99": 0, "backward_percent": 0}
+            for seed in (3, 5)]
+    assert "| | door, seed 3 | door, seed 5 |\n| --- | --- | --- |\n| all rules | 3 s | 5 s |" in module.tables(rows)
