@@ -117,8 +117,10 @@ def tables(rows):
     lines = []
     for title, figure in FIGURES.items():
         lines += [f"{title}:", "", head, "| --- |" + " --- |" * len(columns)]
-        lines += [f"| {name} | " + " | ".join(figure(known[column]) if column in known else "" for column in columns) + " |"
-                  for name, known in cells.items() if name not in same]
+        for name, known in cells.items():
+            if name not in same:
+                told = (figure(known[column]) if column in known else "" for column in columns)
+                lines.append(f"| {name} | " + " | ".join(told) + " |")
         lines.append("")
     if same:
         lines.append(textwrap.fill(f"The same figures as with all rules: {'; '.join(same)}.", 120))
