@@ -22,16 +22,15 @@ void addPush(Body self, uint self_slot, vec2 mine, uint slot, vec2 position, ino
 vec2 pushFromNeighbours(Body self, uint self_slot, uint touching, vec2 position) {
     vec3 push = vec3(0.0);
     vec2 mine = bracing > 0.0 ? weights[self_slot] : vec2(1.0, 0.0);
-    if (touching <= TOUCH_CAPACITY) {
-        for (uint i = 0u; i < touching; ++i)
-            addPush(self, self_slot, mine, touchSlot(self_slot, i), position, push);
-    } else {
-        ivec2 cell = cellOf(self.position);
-        for (int y = cell.y - 1; y <= cell.y + 1; ++y) {
-            uvec2 run = slotRun(cell.x, y);
-            for (uint slot = run.x; slot < run.y; ++slot) addPush(self, self_slot, mine, slot, position, push);
-        }
-    }
+    bool listed = touching <= TOUCH_CAPACITY;
+    ivec2 cell = cellOf(self.position);
+    int y = listed ? cell.y + 1 : cell.y - 1;
+    do {
+        uvec2 run = listed ? uvec2(0u, touching) : slotRun(cell.x, y);
+        if (run.x < run.y) do {
+            addPush(self, self_slot, mine, listed ? touchSlot(self_slot, run.x) : run.x, position, push);
+        } while (++run.x < run.y);
+    } while (++y <= cell.y + 1);
     // Plain sums overshoot where many push: a mildly over-relaxed average converges and does not ring.
     return push.z > 1.0 ? push.xy * (CONTACT_RELAXATION / push.z) : push.xy;
 }
