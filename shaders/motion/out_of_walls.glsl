@@ -26,12 +26,16 @@ vec2 pushFromWall(WallSegment wall, vec2 before, vec2 position, float radius) {
 
 vec2 keepOutOfWalls(Body self, vec2 position) {
     uvec2 walls = wallsNear(cellIndex(cellOf(self.position)));
+    if (walls.x >= walls.y) return position;
     // Leaving one wall may lead into the next: a few rounds settle corners.
-    for (int round = 0; round < 3; ++round) {
-        vec2 was = position;
-        for (uint i = walls.x; i < walls.y; ++i)
+    int round = 0;
+    vec2 was;
+    do {
+        was = position;
+        uint i = walls.x;
+        do {
             position = pushFromWall(wall_segments[wall_items[i]], self.position, position, self.radius);
-        if (position == was) break;
-    }
+        } while (++i < walls.y);
+    } while (++round < 3 && position != was);
     return position;
 }
