@@ -163,13 +163,14 @@ Contacts::Contacts(const gl::ShaderLibrary& library, const Buffers& buffers, int
     back_.bind("TargetsAfter", places.targets);
     for (gl::ComputeProgram* program : {&weigh_, &forth_, &back_})
         program->bind("TouchWords", places.touch_words);
-    if (buffers.hasBodies()) makeFirstRounds(library, rules);
+    makeFirstRounds(library, rules);
 }
 
 void Contacts::makeFirstRounds(const gl::ShaderLibrary& library, const MotionSettings& rules) {
-    for (int iteration = 0; iteration < std::clamp(braced_, 1, 3); ++iteration) {
+    const bool bodies = buffers_.hasBodies();
+    for (int iteration = 0; iteration < std::clamp(braced_, bodies ? 1 : 0, bodies ? 3 : 2); ++iteration) {
         gl::Definitions own;
-        if (iteration == 0) own.emplace_back("FIRST_ROUND", "1");
+        if (bodies && iteration == 0) own.emplace_back("FIRST_ROUND", "1");
         if (iteration < braced_) own.emplace_back("BRACED", "1");
         first_rounds_.push_back(
             buffers_.connect(library, kContact, together(buffers_.definitions(rules), own)));
@@ -181,9 +182,9 @@ void Contacts::makeFirstRounds(const gl::ShaderLibrary& library, const MotionSet
 }
 
 gl::ComputeProgram& Contacts::programOf(int iteration) {
-    const bool forth = iteration % 2 == 0;
-    if (first_rounds_.empty() || (iteration > 0 && iteration >= braced_)) return forth ? forth_ : back_;
-    return first_rounds_[iteration == 0 ? 0 : forth ? 2 : 1];
+    const bool forth = iteration % 2 == 0, bodies = buffers_.hasBodies();
+    if (iteration >= braced_ && !(bodies && iteration == 0)) return forth ? forth_ : back_;
+    return first_rounds_[bodies && iteration > 0 && forth ? 2 : iteration % 2];
 }
 
 void Contacts::run(const std::function<void(const gl::Buffer&)>& hold) {
@@ -196,7 +197,6 @@ void Contacts::run(const std::function<void(const gl::Buffer&)>& hold) {
         if (iteration > 2) momentum = 4.0f / (4.0f - squared * momentum);
         gl::ComputeProgram& round = programOf(iteration);
         round.set("momentum", momentum);
-        round.setIfUsed("bracing", iteration < braced_ ? 1.0f : 0.0f);
         round.dispatchUpTo(buffers_.slotCapacity(), buffers_.touch_dispatch);
         hold(iteration % 2 ? places_.targets : places_.targets_after);
         if (seams_) seams_->takeAlong(iteration % 2 ? Seams::After::round_back : Seams::After::round_forth);

@@ -95,8 +95,8 @@ class Contacts {
     int braced_;             // of these, the first ones, in which weights count
     float spectral_radius_;  // 0 = without momentum
     gl::ComputeProgram weigh_, forth_, back_;
-    /// Where bodies are no discs: the first round, and those with weights, back and forth. The others are
-    /// spared what only these do.
+    /// Those with weights, forth and back; where bodies are no discs, the first round is another one. The
+    /// others are spared what only these do.
     std::vector<gl::ComputeProgram> first_rounds_;
 };
 

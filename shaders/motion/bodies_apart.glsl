@@ -11,17 +11,21 @@ void addPush(Body self, uint self_slot, vec2 mine, uint slot, vec2 position, ino
     if (size_squared >= reach * reach || slot == self_slot) return;
     float size = sqrt(size_squared);
     float its_weight = 1.0;
-    if (bracing > 0.0) {
-        vec2 its = weights[slot];
-        its_weight = its.x / precedence(self_slot, mine.y, slot, its.y, offset);
-    }
+#ifdef BRACED
+    vec2 its = weights[slot];
+    its_weight = its.x / precedence(self_slot, mine.y, slot, its.y, offset);
+#endif
     vec2 apart = apartDirection(offset, size, self.row, bodies[slot].row);
     push += vec3(apart * (reach - size) * its_weight / (mine.x + its_weight), 1.0);
 }
 
 vec2 pushFromNeighbours(Body self, uint self_slot, uint touching, vec2 position) {
     vec3 push = vec3(0.0);
-    vec2 mine = bracing > 0.0 ? weights[self_slot] : vec2(1.0, 0.0);
+#ifdef BRACED
+    vec2 mine = weights[self_slot];
+#else
+    vec2 mine = vec2(1.0, 0.0);
+#endif
     bool listed = touching <= TOUCH_CAPACITY;
     ivec2 cell = cellOf(self.position);
     int y = listed ? cell.y + 1 : cell.y - 1;

@@ -34,9 +34,6 @@ layout(std430) readonly buffer WallItems { uint wall_items[]; };
 layout(std430) readonly buffer TargetsBefore { TARGET targets_before[]; };
 layout(std430) buffer TargetsAfter { TARGET targets_after[]; };  // those before the last round's; then new ones
 uniform float momentum;  // 1 = none
-#ifndef BODIES
-uniform float bracing;   // 1 = who is carried off its way gives less than others, 0 = all give alike
-#endif
 
 #include "shaders/shared/at_most.glsl"
 #include "shaders/shared/snap.glsl"
