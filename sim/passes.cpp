@@ -168,7 +168,7 @@ Contacts::Contacts(const gl::ShaderLibrary& library, const Buffers& buffers, int
 
 void Contacts::makeFirstRounds(const gl::ShaderLibrary& library, const MotionSettings& rules) {
     const bool bodies = buffers_.hasBodies();
-    for (int iteration = 0; iteration < std::clamp(braced_, bodies ? 1 : 0, bodies ? 3 : 2); ++iteration) {
+    for (int iteration = 0; iteration < std::clamp(braced_, bodies ? 1 : 0, 3); ++iteration) {
         gl::Definitions own;
         if (bodies && iteration == 0) own.emplace_back("FIRST_ROUND", "1");
         if (iteration < braced_) own.emplace_back("BRACED", "1");
@@ -182,9 +182,9 @@ void Contacts::makeFirstRounds(const gl::ShaderLibrary& library, const MotionSet
 }
 
 gl::ComputeProgram& Contacts::programOf(int iteration) {
-    const bool forth = iteration % 2 == 0, bodies = buffers_.hasBodies();
-    if (iteration >= braced_ && !(bodies && iteration == 0)) return forth ? forth_ : back_;
-    return first_rounds_[bodies && iteration > 0 && forth ? 2 : iteration % 2];
+    const bool forth = iteration % 2 == 0;
+    if (first_rounds_.empty() || (iteration > 0 && iteration >= braced_)) return forth ? forth_ : back_;
+    return first_rounds_[iteration == 0 ? 0 : forth ? 2 : 1];
 }
 
 void Contacts::run(const std::function<void(const gl::Buffer&)>& hold) {

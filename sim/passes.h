@@ -95,7 +95,7 @@ class Contacts {
     int braced_;             // of these, the first ones, in which weights count
     float spectral_radius_;  // 0 = without momentum
     gl::ComputeProgram weigh_, forth_, back_;
-    /// Those with weights, forth and back; where bodies are no discs, the first round is another one. The
+    /// The first round, which differs where bodies are no discs, and those with weights, back and forth. The
     /// others are spared what only these do.
     std::vector<gl::ComputeProgram> first_rounds_;
 };

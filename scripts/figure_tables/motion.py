@@ -20,7 +20,6 @@ LARGE = {
     "corridor-16384": "two blocks of 8,192",
     "crossing-16384": "two blocks of 8,192",
     "annulus-16384": "on rings",
-    "ring-16384": "on a circle",
 }
 MOTION = ("at goal by T", "all there after", "deepest overlap, % of 2a", "overlapping pairs, % of people")
 BOTTLENECKS = {"bottleneck-080": "0.8 m", "bottleneck-100": "1.0 m", "bottleneck-120": "1.2 m"}
@@ -76,21 +75,22 @@ def scenarios(runs):
 
 
 def large(runs):
-    return crowds_of_16384(runs, [name for name in LARGE if name != "ring-16384"])
+    return crowds_of_16384(runs, LARGE)
 
 
 def large_ring(runs):
-    return crowds_of_16384(runs, ["ring-16384"], "simulation.proximity=grid")  # 27 million cells of diagram else
+    crowds = {"ring-16384": "on a circle"}
+    return crowds_of_16384(runs, crowds, "simulation.proximity=grid")  # 27 million cells of diagram else
 
 
-def crowds_of_16384(runs, names, *settings):
+def crowds_of_16384(runs, crowds, *settings):
     rows = []
-    for name in names:
+    for name, about in crowds.items():
         figures = runs.scenario(name, *settings)
         time = f"{figures['time_ratio']:.2f}"
         rows.append(
             [
-                with_time(runs, name, LARGE[name]),
+                with_time(runs, name, about),
                 *motion_of(figures),
                 f"{figures['stuck']:,}",
                 time,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bodies apart: those that overlap are pushed away from each other, each by its share.
+// Bodies apart: those that overlap are pushed away from each other, each by its share. Its loops, and those of
+// out_of_walls.glsl, are as capsules_apart.glsl says.
 // Needs the blocks Bodies, Weights, TouchLists and TargetsBefore, shaders/cells/cells.glsl and cell_runs.glsl,
 // shaders/shared/touch_list.glsl, and shaders/motion/nearest_first.glsl and apart_direction.glsl.
 
