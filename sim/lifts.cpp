@@ -11,16 +11,16 @@ const gl::Declaration kCensus = {
      "ChartCells", "ChartShifts", "LiftPlans", "LiftStops", "CabinStops", "LiftStates", "LiftWishesBlock",
      "LiftQueues", "Riders"},
     {"LiftWishesBlock", "LiftQueues", "Riders"}};
-const gl::Declaration kMove = {"lifts",
-                               {"shaders/lifts/move.comp"},
-                               {"ParametersBlock", "LiftPlans", "LiftStops", "CabinStops", "LiftStates"},
-                               {"LiftStates"}};
+const gl::Declaration kMoveLifts = {"lifts",
+                                    {"shaders/lifts/move.comp"},
+                                    {"ParametersBlock", "LiftPlans", "LiftStops", "CabinStops", "LiftStates"},
+                                    {"LiftStates"}};
 const gl::Declaration kControl = {"lifts",
                                   {"shaders/lifts/control.comp"},
                                   {"LiftPlans", "LiftStops", "CabinStops", "LiftStates", "LiftWishesBlock",
                                    "Riders", "States", "ChartShifts"},
                                   {"LiftStates", "Riders"}};
-const gl::Declaration kWish = {
+const gl::Declaration kWishForLifts = {
     "avoidance",
     {"shaders/lifts/wish.comp"},
     {"ParametersBlock", "LiveDispatch", "Bodies", "Walkers", "ChartCells", "ChartShifts", "LiftPlans",
@@ -40,10 +40,10 @@ Lifts::Lifts(const gl::ShaderLibrary& library, Buffers& buffers, const authoring
     : buffers_(buffers),
       count_(scene.chart_map.lifts.plans.size()),
       rows_(static_cast<std::uint32_t>(scene.people.size())),
-      move_(buffers.connect(library, kMove, buffers.definitions())),
+      move_(buffers.connect(library, kMoveLifts, buffers.definitions())),
       census_(buffers.connect(library, kCensus, buffers.definitions(rules))),
       control_(buffers.connect(library, kControl, buffers.definitions())),
-      wish_(buffers.connect(library, kWish, buffers.definitions(rules))),
+      wish_(buffers.connect(library, kWishForLifts, buffers.definitions(rules))),
       keep_out_(buffers.connect(library, kKeepOut, buffers.definitions(rules))) {}
 
 void Lifts::move() {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "sim/buffers.h"
+#include "sim/diagram/sparse_layers.h"
 #include "sim/frame_pump.h"
 #include "sim/gl/buffer.h"
 #include "sim/simulation_parts.h"
@@ -39,13 +40,20 @@ bool mayBuildPerSite(const authoring::Scene& scene, const gpu::Parameters& param
 std::size_t bytesOfDiagram(const authoring::Scene& scene, const gpu::Parameters& parameters,
                            const Buffers& buffers) {
     const DiagramOptions options = diagramOptions(scene, parameters, buffers);
-    const std::size_t whole = std::size_t{options.width} * options.height * gl::kWord;
-    if (!options.paged)
-        return whole * (mayBuildPerSite(scene, parameters, options) ? 4 : scene.wall_tiles.empty() ? 1 : 3);
-    const std::uint64_t pages = Pages::pagesNeeded(options.width, options.height, options.largest_radius,
-                                                   options.live_capacity + scene.wall_tiles.size());
-    const std::size_t squares = whole / gl::kWord / (gpu::PAGE_SIDE * gpu::PAGE_SIDE);
-    return pages * gpu::PAGE_SIDE * gpu::PAGE_SIDE * gl::kWord + 2 * squares * gl::kWord;
+    const std::vector<gpu::DiagramSite> walls = wallSites(scene, parameters);
+    const FixedSquares squares(options.width, options.height, walls);
+    const std::size_t of_walls = walls.empty() ? 0 : SparseLayers::bytes(squares);
+    if (!options.paged) {
+        const std::size_t whole = std::size_t{options.width} * options.height * gl::kWord;
+        const std::size_t per_site =
+            mayBuildPerSite(scene, parameters, options) ? (walls.empty() ? 1 : 3) : 0;
+        return whole * (1 + per_site) + of_walls;
+    }
+    const std::uint64_t pages =
+        Pages::pagesNeeded(options.width, options.height, options.largest_radius, options.live_capacity);
+    const std::uint64_t kept =
+        std::min<std::uint64_t>(squares.places.size() + 1, pages + squares.squares.size());
+    return kept * FixedSquares::kPixels * gl::kWord + 2 * squares.places.size() * gl::kWord + of_walls;
 }
 
 /// What routes that lead round jams keep (sim/congestion.cpp).

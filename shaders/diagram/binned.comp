@@ -11,12 +11,14 @@
 // depend on the device and the density, and are chosen by measurement (sim/benchmarks/calibration.h).
 //
 // With PAGED, blocks are those of the pages in the list of this build (sim/diagram/pages.h); with LISTED, too, but the
-// owners are one picture, and what lies outside the listed pages stays as it is. Sites that never move are offered like
-// the others (FIXED_SITES), or their diagram has been worked out before (FIXED_LAYERS).
+// owners are one picture, and what lies outside the listed pages stays as it is. Of sites that never move, the diagram
+// has been worked out before (FIXED_LAYERS), in the same way: with LAYERS, distances are kept beside the owners.
 #include "shaders/shared/simulation_types.h"
 
 layout(local_size_x = PIXEL_GROUP_SIZE) in;
-#ifdef STORE_BY_FOUR
+#if defined(LAYERS)
+layout(std430) writeonly buffer Layers { uvec2 layers[]; };  // the owner, and the squared distance to it as bits
+#elif defined(STORE_BY_FOUR)
 layout(std430) writeonly buffer Owners { uvec4 owners[]; };
 #else
 layout(std430) writeonly buffer Owners { uint owners[]; };
@@ -26,21 +28,18 @@ uniform float largest_radius;  // px
 #if defined(PAGED) || defined(LISTED)
 layout(std430) readonly buffer PageList { uint page_list[]; };
 layout(std430) readonly buffer PageCount { uint page_groups[3]; uint page_count; };
+#endif
+#if defined(PAGED) || defined(LISTED) || defined(FIXED_LAYERS)
 uniform uint pages_per_line;
 #endif
 #ifdef PAGED
-uniform uint first_page;  // of the range that Owners shows
+uniform uint first_page;  // of the range of the store that is bound
 #else
 uniform vec2 diagram_size;  // whole pixels
 #endif
-#ifdef FIXED_SITES
-layout(std430) readonly buffer FixedBinStarts { uint fixed_bin_starts[]; };
-uniform usamplerBuffer fixed_binned_sites;
-#endif
-
 #ifdef FIXED_LAYERS
-layout(std430) readonly buffer FixedOwners { uint fixed_owners[]; };
-layout(std430) readonly buffer FixedDistances { uint fixed_distances[]; };  // float bits
+layout(std430) readonly buffer FixedPlaces { uint fixed_places[]; };  // of squares of PAGE_SIDE px; 0: no fixed site
+uniform usamplerBuffer fixed_layers;                                  // by place, as Layers
 #endif
 
 #include "shaders/diagram/bins.glsl"
@@ -110,14 +109,22 @@ void offer(vec2 corner, uvec4 words) {
     }
 }
 
-/// The owner, once all that move have been offered. Ids of fixed sites are above all others: they lose ties.
-uint ownerOf(uint pixel, uint word) {
 #ifdef FIXED_LAYERS
-    uint id = fixed_owners[word];
-    if (id != NO_INDEX && uintBitsToFloat(fixed_distances[word]) < nearest[pixel]) return id;
-#endif
-    return nearest_id[pixel];
+/// Once all that move have been offered. Ids of fixed sites are above all others: they lose ties.
+void offerFixed(uvec2 corner) {
+    uvec2 square = corner / PAGE_SIDE, within = corner % PAGE_SIDE;
+    uint place = fixed_places[square.y * pages_per_line + square.x];
+    uint first = (place * PAGE_SIDE + within.y) * PAGE_SIDE + within.x;
+    for (uint y = 0u; y < BLOCK_HEIGHT; ++y)
+        for (uint x = 0u; x < BLOCK_WIDTH; ++x) {
+            uvec2 fixed_site = texelFetch(fixed_layers, int(first + y * PAGE_SIDE + x)).xy;
+            uint pixel = y * BLOCK_WIDTH + x;
+            // Where there is none, the distance is no number, and not below any.
+            bool wins = uintBitsToFloat(fixed_site.y) < nearest[pixel];
+            nearest_id[pixel] = wins ? fixed_site.x : nearest_id[pixel];
+        }
 }
+#endif
 
 void main() {
     uvec2 block_corner;
@@ -138,12 +145,10 @@ void main() {
         uint first = cellStart(bins + lower.x);
         uint last = cellStart(bins + upper.x + 1u);
         for (uint i = first; i < last; ++i) offer(corner, texelFetch(binned_sites, int(i)));
-#ifdef FIXED_SITES
-        first = fixed_bin_starts[bins + lower.x];
-        last = fixed_bin_starts[bins + upper.x + 1u];
-        for (uint i = first; i < last; ++i) offer(corner, texelFetch(fixed_binned_sites, int(i)));
-#endif
     }
+#ifdef FIXED_LAYERS
+    offerFixed(block_corner);
+#endif
 
     for (uint y = 0u; y < BLOCK_HEIGHT; ++y) {
 #ifndef PAGED
@@ -151,16 +156,19 @@ void main() {
 #endif
         uint word = first_word + y * words_per_line;
         uint pixel = y * BLOCK_WIDTH;
-#ifdef STORE_BY_FOUR
+#if defined(LAYERS)
+        for (uint x = 0u; x < BLOCK_WIDTH; ++x)
+            layers[word + x] = uvec2(nearest_id[pixel + x], floatBitsToUint(nearest[pixel + x]));
+#elif defined(STORE_BY_FOUR)
         for (uint x = 0u; x < BLOCK_WIDTH; x += 4u) {
             if (block_corner.x + x >= words_in_line) break;
+            uint i = pixel + x;
             owners[(word + x) / 4u] =
-                uvec4(ownerOf(pixel + x, word + x), ownerOf(pixel + x + 1u, word + x + 1u),
-                      ownerOf(pixel + x + 2u, word + x + 2u), ownerOf(pixel + x + 3u, word + x + 3u));
+                uvec4(nearest_id[i], nearest_id[i + 1u], nearest_id[i + 2u], nearest_id[i + 3u]);
         }
 #else
         for (uint x = 0u; x < BLOCK_WIDTH; ++x)
-            if (block_corner.x + x < words_in_line) owners[word + x] = ownerOf(pixel + x, word + x);
+            if (block_corner.x + x < words_in_line) owners[word + x] = nearest_id[pixel + x];
 #endif
     }
 }

@@ -131,6 +131,7 @@ std::vector<std::optional<DiagramTiming>> DiagramBenchmark::run(
                                                                std::span<const gpu::DiagramSite>(),
                                                                *runner.owners,
                                                                *runner.long_work,
+                                                               {},
                                                                {}});
             runner.yardstick->connect(input);
         } else {

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <epoxy/gl.h>
-#include <fmt/format.h>
-
 #include <algorithm>
 
+#include "sim/diagram/gather.h"
 #include "sim/diagram/methods.h"
 
 namespace throng::sim {
@@ -11,12 +9,6 @@ namespace {
 
 constexpr std::size_t kPageBytes = std::size_t{4} * gpu::PAGE_SIDE * gpu::PAGE_SIDE;
 
-const gl::Declaration kGatherTiles = {
-    "diagram",
-    {"shaders/diagram/binned.comp"},
-    {"binned_sites", "StripStarts", "CellOffsets", "FixedBinStarts", "fixed_binned_sites", "FixedOwners",
-     "FixedDistances", "PageList", "PageCount"},
-    {"Owners"}};
 const gl::Declaration kCountGroups = {
     "diagram", {"shaders/diagram/page_dispatch.comp"}, {"PageCount"}, {"PageDispatch"}};
 const gl::Declaration kListPages = {"diagram",
@@ -24,40 +16,9 @@ const gl::Declaration kListPages = {"diagram",
                                     {"LiveDispatch", "Sites", "PageStamps", "PageCount"},
                                     {"PageStamps", "PageCount", "PageList"}};
 
-enum class Gathering { whole, near_people, pages };
-
-gl::Definitions definitionsFor(const DiagramOptions& options, bool fixed_sites, Gathering gathering) {
-    const bool paged = gathering == Gathering::pages;
-    gl::Definitions definitions = {{"BLOCK_WIDTH", fmt::format("{}u", options.gather.block_width)},
-                                   {"BLOCK_HEIGHT", fmt::format("{}u", options.gather.block_height)}};
-    if (fixed_sites) definitions.emplace_back(paged ? "FIXED_SITES" : "FIXED_LAYERS", "1");
-    if (paged) definitions.emplace_back("PAGED", "1");
-    if (gathering == Gathering::near_people) definitions.emplace_back("LISTED", "1");
-    const bool lines_of_fours = paged || options.width % 4 == 0;
-    if (lines_of_fours && options.gather.block_width % 4 == 0) definitions.emplace_back("STORE_BY_FOUR", "1");
-    return definitions;
-}
-
-std::uint64_t blocksAcross(std::uint32_t pixels, std::uint32_t block) {
-    return (pixels + block - 1) / block;
-}
-
-std::uint32_t blocksPerPage(const GatherShape& shape) {
-    return (gpu::PAGE_SIDE / shape.block_width) * (gpu::PAGE_SIDE / shape.block_height);
-}
-
 /// Whose blocks one group of a pass works on.
 std::uint32_t pagesPerGroup(const GatherShape& shape) {
     return std::max(1u, gpu::PIXEL_GROUP_SIZE / blocksPerPage(shape));
-}
-
-/// Pages that one binding of a storage block can show.
-std::uint32_t pagesPerRange(std::uint32_t blocks_per_page) {
-    GLint64 bytes = 0;
-    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
-    const auto by_memory = static_cast<std::uint64_t>(bytes) / kPageBytes;
-    const std::uint64_t by_groups = std::uint64_t{65535} * gpu::PIXEL_GROUP_SIZE / blocks_per_page;
-    return static_cast<std::uint32_t>(std::min(by_memory, by_groups));
 }
 
 }  // namespace
@@ -68,24 +29,19 @@ constexpr float kMostBinRadii = 3.5f;
 BinnedDiagram::BinnedDiagram(const DiagramSetup& setup, Pages* pages)
     : library_(setup.library),
       options_(setup.options),
-      fixed_sites_(setup.fixed_sites),
       blocks_(blocksAcross(setup.options.width, setup.options.gather.block_width) *
               blocksAcross(setup.options.height, setup.options.gather.block_height)),
-      gather_(setup.library, kGatherTiles,
-              definitionsFor(setup.options, !setup.fixed_sites.empty(),
-                             pages ? Gathering::pages : Gathering::whole)),
+      gather_(gatherProgram(setup.library, setup.options, pages ? Gathering::pages : Gathering::whole,
+                            !setup.fixed_sites.empty())),
+      fixed_(setup.fixed_sites.empty() ? nullptr : &setup.sparse()),
       pages_(pages),
       owners_(setup.owners) {
-    if (pages_) {
-        setUpPages(setup);
-        return;
-    }
-    if (!fixed_sites_.empty()) fixed_ = &setup.fixed();
+    if (pages_) setUpPages(setup);
 }
 
 void BinnedDiagram::setUpPages(const DiagramSetup& setup) {
     const std::uint32_t blocks_per_page = blocksPerPage(options_.gather);
-    pages_per_range_ = pagesPerRange(blocks_per_page);
+    pages_per_range_ = pagesPerRange(options_.gather, kPageBytes);
     ranges_ = (pages_->capacity() + pages_per_range_ - 1) / pages_per_range_;
     page_dispatch_ = gl::Buffer("diagram page dispatch", {ranges_, 12, "range of pages"});
     count_groups_ = gl::ComputeProgram(setup.library, kCountGroups);
@@ -120,8 +76,7 @@ void BinnedDiagram::setUpNear() {
     near_->list_pages.set("diagram_size", glm::vec2(options_.width, options_.height));
     near_->list_pages.set("look", options_.look);
     near_->list_pages.set("pages_per_group", pagesPerGroup(options_.gather));
-    near_->gather = gl::ComputeProgram(
-        library_, kGatherTiles, definitionsFor(options_, !fixed_sites_.empty(), Gathering::near_people));
+    near_->gather = gatherProgram(library_, options_, Gathering::near_people, fixed_ != nullptr);
     for (gl::ComputeProgram* program : {&near_->list_pages, &near_->gather}) {
         program->bind("PageList", near_->list);
         program->bind("PageCount", near_->count);
@@ -144,11 +99,8 @@ void BinnedDiagram::connect(const DiagramInput& input) {
     } else {
         bins_.emplace(library_, *grid_, options_.live_capacity);
         bins_->connect(*input.sites, *input.live_dispatch);
-        // All its bins start where they say, whatever the strip.
-        no_strips_ = gl::makeBuffer(
-            "no strips", std::vector<std::uint32_t>(grid_->count() / gpu::CELLS_PER_STRIP + 1), "strip");
+        no_strips_ = noStrips(*grid_);
     }
-    if (pages_ && !fixed_sites_.empty()) fixed_bins_.emplace(library_, *grid_, fixed_sites_);
     connectGather(gather_);
     if (near_) connectNear();
 }
@@ -167,14 +119,7 @@ void BinnedDiagram::connectGather(gl::ComputeProgram& gather) {
     gather.bind("StripStarts", bins_ ? no_strips_ : *input_.sorted->strip_starts);
     gather.bind("CellOffsets", bins_ ? bins_->starts() : *input_.sorted->starts);
     gather.bind("binned_sites", bins_ ? bins_->sites() : sorted_sites_);
-    if (fixed_bins_) {
-        gather.bind("FixedBinStarts", fixed_bins_->starts());
-        gather.bind("fixed_binned_sites", fixed_bins_->sites());
-    }
-    if (fixed_) {
-        gather.bind("FixedOwners", fixed_->owners());
-        gather.bind("FixedDistances", fixed_->distances());
-    }
+    if (fixed_) fixed_->describeTo(gather);
 }
 
 void BinnedDiagram::build(Extent extent) {

@@ -99,11 +99,22 @@ Diagram::~Diagram() = default;
 Diagram::Diagram(Diagram&&) noexcept = default;
 Diagram& Diagram::operator=(Diagram&&) noexcept = default;
 
+/// Pages stand where fixed sites may ever be: which are there now changes what is in their layers.
+std::unique_ptr<SparseLayers> Diagram::makeSparseLayers() const {
+    if (pages_) return std::make_unique<SparseLayers>(library_, options_, pages_->fixed(), fixed_sites_);
+    const FixedSquares squares(options_.width, options_.height, fixed_sites_);
+    return std::make_unique<SparseLayers>(library_, options_, squares, fixed_sites_);
+}
+
 std::unique_ptr<Diagram::Implementation> Diagram::make() {
-    DiagramSetup setup{library_, options_, fixed_sites_, *owners_, *long_work_, {}};
+    DiagramSetup setup{library_, options_, fixed_sites_, *owners_, *long_work_, {}, {}};
     setup.fixed = [&]() -> const FixedLayers& {
         if (!fixed_layers_) fixed_layers_ = std::make_unique<FixedLayers>(setup);
         return *fixed_layers_;
+    };
+    setup.sparse = [&]() -> const SparseLayers& {
+        if (!sparse_layers_) sparse_layers_ = makeSparseLayers();
+        return *sparse_layers_;
     };
     switch (options_.method) {
         case DiagramMethod::cones:
@@ -164,6 +175,7 @@ void Diagram::changeFixedSites(std::span<const gpu::DiagramSite> fixed_sites) {
     fixed_sites_.assign(fixed_sites.begin(), fixed_sites.end());
     made_.clear();
     fixed_layers_.reset();
+    sparse_layers_.reset();
     use(options_.method, options_.gather);
     extras_ = std::make_unique<Extras>();
 }

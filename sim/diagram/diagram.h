@@ -71,6 +71,7 @@ struct LongWork {
 };
 
 class FixedLayers;
+class SparseLayers;
 
 /// The truncated Voronoi diagram of De Gyves, Toledo and Rudomin 2013: every pixel's owner is the nearest
 /// site whose tile radius reaches the pixel's centre, ties going to the smallest id, and no other. Vehicles
@@ -139,6 +140,7 @@ class Diagram {
   private:
     struct Extras;
     std::unique_ptr<Implementation> make();
+    std::unique_ptr<SparseLayers> makeSparseLayers() const;
 
     gl::ShaderLibrary library_;
     DiagramOptions options_;
@@ -146,6 +148,7 @@ class Diagram {
     std::unique_ptr<LongWork> long_work_;
     std::unique_ptr<Pages> pages_;
     std::unique_ptr<FixedLayers> fixed_layers_;
+    std::unique_ptr<SparseLayers> sparse_layers_;
     std::optional<VehicleCells> vehicle_cells_;
     std::unique_ptr<gl::Buffer> owners_;  // in one place for good: others bind it
     gl::WordTexture owner_texture_, table_texture_;

@@ -9,6 +9,7 @@
 #include "sim/diagram/diagram.h"
 #include "sim/diagram/fixed_layers.h"
 #include "sim/diagram/pages.h"
+#include "sim/diagram/sparse_layers.h"
 #include "sim/gl/raster_target.h"
 
 /// The ways to build a diagram. Each leaves the owners in the buffer it was given.
@@ -21,8 +22,9 @@ struct DiagramSetup {
     std::span<const gpu::DiagramSite> fixed_sites;
     gl::Buffer& owners;
     LongWork& long_work;
-    /// What the fixed sites alone give; made at the first asking.
+    /// What the fixed sites alone give, everywhere and where they are; each made at the first asking.
     std::function<const FixedLayers&()> fixed;
+    std::function<const SparseLayers&()> sparse;
     /// One word a pixel.
     gl::Room picture() const { return {std::size_t{options.width} * options.height, 4, "pixel"}; }
     std::uint32_t siteCount() const {
@@ -40,7 +42,7 @@ class PerSiteDiagram final : public Diagram::Implementation {
   private:
     gl::Buffer& owners_;
     gl::Buffer distances_;
-    const FixedLayers& fixed_;  // which every build starts from
+    const FixedLayers* fixed_;  // which every build starts from; null: there are no fixed sites
     Splat splat_;
 };
 
@@ -86,20 +88,18 @@ class BinnedDiagram final : public Diagram::Implementation {
 
     gl::ShaderLibrary library_;
     DiagramOptions options_;
-    std::span<const gpu::DiagramSite> fixed_sites_;
     std::optional<SiteBins> bins_;  // unless the sites come sorted
     gl::Buffer no_strips_;          // beside bins_
     gl::WordTexture sorted_sites_;  // where the sites do come sorted
-    std::optional<FixedBins> fixed_bins_;
     std::uint64_t blocks_;
     gl::ComputeProgram gather_;
+    const SparseLayers* fixed_;       // null: there are no fixed sites
     std::optional<BinnedNear> near_;  // made at the first asking
     DiagramInput input_;
     std::optional<BinGrid> grid_;
 
     Pages* pages_;
     gl::Buffer& owners_;
-    const FixedLayers* fixed_ = nullptr;  // where there are fixed sites and the picture is whole
     std::uint32_t ranges_ = 0;
     std::uint32_t pages_per_range_ = 0;
     gl::ComputeProgram count_groups_;

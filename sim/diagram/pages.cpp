@@ -13,32 +13,27 @@
 namespace throng::sim {
 namespace {
 
-constexpr std::size_t kPagePixels = std::size_t{gpu::PAGE_SIDE} * gpu::PAGE_SIDE;
-
-const gl::Declaration kPlace = {"diagram",
-                                {"shaders/diagram/pages.comp"},
-                                {"LiveDispatch", "Sites", "FixedTable", "PageTable", "PageCount"},
-                                {"PageTable", "PageCount", "PageList"}};
+const gl::Declaration kPlacePages = {"diagram",
+                                     {"shaders/diagram/pages.comp"},
+                                     {"LiveDispatch", "Sites", "FixedTable", "PageTable", "PageCount"},
+                                     {"PageTable", "PageCount", "PageList"}};
 const gl::Declaration kForget = {
     "diagram", {"shaders/diagram/pages_forget.comp"}, {"PageCount", "PageList"}, {"PageTable"}};
 const gl::Declaration kCoverVehicles = {
     "diagram", {"shaders/diagram/vehicle_tiles.comp"}, {"VehicleBoxes"}, {"VehicleTiles"}};
 constexpr float kNobodyLooks = -1.0f;
 
-std::uint32_t pagesAcross(std::uint32_t pixels) {
-    return (pixels + gpu::PAGE_SIDE - 1) / gpu::PAGE_SIDE;
-}
-
 /// The table, too, has to fit a storage block.
-gl::Room checkedTable(std::uint32_t width, std::uint32_t height) {
+FixedSquares checkedSquares(std::uint32_t width, std::uint32_t height,
+                            std::span<const gpu::DiagramSite> fixed_sites) {
     constexpr std::size_t kMostSquares = std::size_t{1} << 25;
-    const std::size_t squares = std::size_t{pagesAcross(width)} * pagesAcross(height);
+    const std::size_t squares = std::size_t{FixedSquares::across(width)} * FixedSquares::across(height);
     if (squares > kMostSquares)
         throw gl::GraphicsError(fmt::format(
             "the diagram of {} x {} pixels is too large even in pages. Set "
             "simulation.pixels_per_metre to at most {:.2g} times what it is, or split the layout.",
             width, height, std::sqrt(static_cast<double>(kMostSquares) / static_cast<double>(squares))));
-    return {squares, gl::kWord, "page of the window"};
+    return {width, height, fixed_sites};
 }
 
 }  // namespace
@@ -49,70 +44,53 @@ std::uint64_t Pages::pagesNeeded(std::uint32_t width, std::uint32_t height, floa
     // at most 2 r + 2 pixels wide.
     const double across = std::ceil((2.0 * largest_radius + 1.0) / gpu::PAGE_SIDE) + 1.0;
     const double by_sites = static_cast<double>(sites) * across * across;
-    const double all = static_cast<double>(pagesAcross(width)) * pagesAcross(height);
+    const double all = static_cast<double>(FixedSquares::across(width)) * FixedSquares::across(height);
     return static_cast<std::uint64_t>(std::min(by_sites, all)) + 1;
 }
 
 Pages::Pages(const gl::ShaderLibrary& library, std::uint32_t width, std::uint32_t height,
              float largest_radius, float look, std::uint32_t live_capacity,
              std::span<const gpu::DiagramSite> fixed_sites, const VehicleSites* vehicles)
-    : per_line_(pagesAcross(width)),
+    : fixed_(checkedSquares(width, height, fixed_sites)),
       look_(look),
-      table_("diagram page table", checkedTable(width, height)),
-      fixed_table_("diagram page table, fixed sites", checkedTable(width, height)),
+      table_("diagram page table", {fixed_.places.size(), gl::kWord, "page of the window"}),
+      fixed_table_(gl::makeBuffer("diagram page table, fixed sites", fixed_.places, "page of the window")),
+      fixed_list_(gl::makeBuffer("diagram pages, fixed sites", fixed_.squares, "page")),
       count_("diagram page count", 4 * gl::kWord),
-      fixed_count_("diagram page count, fixed sites", 4 * gl::kWord),
+      fixed_count_(gl::makeBuffer("diagram page count, fixed sites", dispatchOf(fixed_.squares.size()))),
       // The empty page, and the group of a pass over all pages that it is in.
       empty_count_(gl::makeBuffer("no diagram pages", std::vector<std::uint32_t>{1, 1, 1, 1})),
-      place_(library, kPlace),
+      place_(library, kPlacePages),
       forget_(library, kForget) {
     place_.set("diagram_size", glm::vec2(width, height));
-    place_.set("pages_per_line", per_line_);
+    place_.set("pages_per_line", fixed_.per_line);
     place_.bind("PageTable", table_);
     place_.bind("PageCount", count_);
     place_.bind("FixedTable", fixed_table_);
     forget_.bind("PageTable", table_);
     forget_.bind("PageCount", count_);
-    fixed_table_.fill(0);
-    fixed_count_.copyFrom(empty_count_);
+    table_.fill(0);
 
-    // The fixed sites are placed once, in a list that is long enough for them, to learn how many pages they
-    // take.
-    const std::uint64_t fixed_bound = pagesNeeded(width, height, largest_radius, fixed_sites.size());
-    gl::Buffer fixed_list("diagram pages, fixed sites at most", {fixed_bound, gl::kWord, "page"});
-    const gl::Buffer sites = gl::makeBuffer(
-        "fixed sites", std::vector<gpu::DiagramSite>(fixed_sites.begin(), fixed_sites.end()), "fixed site");
-    const gl::Buffer dispatch = gl::makeBuffer("fixed dispatch", dispatchOf(fixed_sites.size()));
-    place_.set("page_capacity", static_cast<std::uint32_t>(fixed_bound));
-    place_.bind("PageList", fixed_list);
-    connect(sites, dispatch);
-    place(Extent::everywhere);
-    fixed_table_.copyFrom(table_);
-    fixed_count_.copyFrom(count_);
-    const std::uint64_t fixed_pages = count_.download<std::uint32_t>(4).back();
-    fixed_list_ = gl::Buffer("diagram pages, fixed sites", {fixed_pages, gl::kWord, "page"});
-    fixed_list_.copyFrom(fixed_list);
-
-    const std::uint64_t all = std::uint64_t{per_line_} * pagesAcross(height) + 1;
+    const std::uint64_t all = fixed_.places.size() + 1;
     const std::uint64_t under_vehicles = vehicles ? coverVehicles(library, *vehicles, width, height) : 0;
-    const std::uint64_t needed = std::min(
-        all, fixed_pages + pagesNeeded(width, height, largest_radius, live_capacity) + under_vehicles);
+    const std::uint64_t needed =
+        std::min(all, fixed_.squares.size() + pagesNeeded(width, height, largest_radius, live_capacity) +
+                          under_vehicles);
     constexpr std::uint64_t kMostPages =
-        (std::uint64_t{1} << 27) / kPagePixels;  // texels of a buffer texture
+        (std::uint64_t{1} << 27) / FixedSquares::kPixels;  // texels of a buffer texture
     if (needed > kMostPages)
         throw gl::GraphicsError(fmt::format(
             "the diagram of {} x {} pixels may need {:.0f} million of them where people or walls are, and "
             "the "
             "limit is {:.0f} million. Set simulation.pixels_per_metre lower, or split the layout.",
-            width, height, static_cast<double>(needed * kPagePixels) / 1e6,
-            static_cast<double>(kMostPages * kPagePixels) / 1e6));
+            width, height, static_cast<double>(needed * FixedSquares::kPixels) / 1e6,
+            static_cast<double>(kMostPages * FixedSquares::kPixels) / 1e6));
     capacity_ = static_cast<std::uint32_t>(needed);
     list_ = gl::Buffer("diagram pages", {capacity_, gl::kWord, "page"});
     list_.copyFrom(fixed_list_);
     place_.set("page_capacity", capacity_);
     place_.bind("PageList", list_);
     forget_.bind("PageList", list_);
-    live_dispatch_ = sites_ = nullptr;
 }
 
 /// @returns how many pages that takes at most
@@ -131,7 +109,7 @@ std::uint64_t Pages::coverVehicles(const gl::ShaderLibrary& library, const Vehic
 }
 
 gl::Room Pages::store() const {
-    return {kPagePixels * capacity_, gl::kWord, "pixel"};
+    return {FixedSquares::kPixels * capacity_, gl::kWord, "pixel"};
 }
 
 void Pages::connect(const gl::Buffer& sites, const gl::Buffer& live_dispatch) {
@@ -151,7 +129,7 @@ void Pages::place(Extent extent) {
     if (everywhere) {
         table_.copyFrom(fixed_table_);
         count_.copyFrom(fixed_count_);
-        if (capacity_) list_.copyFrom(fixed_list_);
+        list_.copyFrom(fixed_list_);
     } else {
         forget_.dispatchIndirect(count_);
         count_.copyFrom(empty_count_);

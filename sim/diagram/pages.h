@@ -6,6 +6,7 @@
 #include <span>
 
 #include "shaders/shared/simulation_types.h"
+#include "sim/diagram/fixed_squares.h"
 #include "sim/gl/buffer.h"
 #include "sim/gl/program.h"
 
@@ -43,8 +44,10 @@ class Pages {
     /// Places the pages for where the sites are now.
     void place(Extent extent);
 
-    std::uint32_t perLine() const { return per_line_; }
+    std::uint32_t perLine() const { return fixed_.per_line; }
     std::uint32_t capacity() const { return capacity_; }
+    /// Where fixed sites are that the pages were made for.
+    const FixedSquares& fixed() const { return fixed_; }
     const gl::Buffer& table() const { return table_; }
     const gl::Buffer& list() const { return list_; }
     const gl::Buffer& count() const { return count_; }
@@ -62,7 +65,7 @@ class Pages {
                                 std::uint32_t width, std::uint32_t height);
     void placeUnder(const gl::Buffer& sites, const gl::Buffer& dispatch, float look);
 
-    std::uint32_t per_line_;
+    FixedSquares fixed_;
     std::uint32_t capacity_ = 0;
     float look_;
     gl::Buffer table_;        // per square of the window: the place of its page

@@ -6,7 +6,7 @@ namespace throng::sim {
 PerSiteDiagram::PerSiteDiagram(const DiagramSetup& setup)
     : owners_(setup.owners),
       distances_("diagram distances", setup.picture()),
-      fixed_(setup.fixed()),
+      fixed_(setup.fixed_sites.empty() ? nullptr : &setup.fixed()),
       splat_(setup, owners_, distances_) {}
 
 void PerSiteDiagram::connect(const DiagramInput& input) {
@@ -16,8 +16,13 @@ void PerSiteDiagram::connect(const DiagramInput& input) {
 // A pixel's owner may start as a wall tile and be taken over by an agent: its id is smaller, so the minimum
 // does it.
 void PerSiteDiagram::build(Extent) {
-    owners_.copyFrom(fixed_.owners());
-    distances_.copyFrom(fixed_.distances());
+    if (fixed_) {
+        owners_.copyFrom(fixed_->owners());
+        distances_.copyFrom(fixed_->distances());
+    } else {
+        owners_.fill(gpu::NO_INDEX);
+        distances_.fill(gpu::NO_INDEX);  // above the bits of every float
+    }
     splat_.run();
 }
 
