@@ -43,6 +43,8 @@ std::size_t bytesOfDiagram(const authoring::Scene& scene, const gpu::Parameters&
     const std::vector<gpu::DiagramSite> walls = wallSites(scene, parameters);
     const FixedSquares squares(options.width, options.height, walls);
     const std::size_t of_walls = walls.empty() ? 0 : SparseLayers::bytes(squares);
+    if (options.bands.bin_lines > 0)
+        return std::size_t{options.width} * options.bands.lines(options.look) * gl::kWord + of_walls;
     if (!options.paged) {
         const std::size_t whole = std::size_t{options.width} * options.height * gl::kWord;
         const std::size_t per_site =
@@ -74,6 +76,7 @@ MemoryNeeded memoryNeeded(const authoring::Scene& scene) {
     MemoryNeeded needed;
     const gl::BufferCount count;
     const Buffers buffers(scene, parameters);
+    const std::optional<TerrainSlopes> slopes = TerrainSlopes::of(scene);
     for (const gl::BufferCount::Counted& buffer : count.buffers())
         (isOfPeople(buffer) ? needed.people : needed.scene) += buffer.bytes;
     needed.scene += bytesOfDetours(scene, parameters);

@@ -9,9 +9,9 @@ namespace {
 const gl::Declaration kMarch = {
     "sensing",
     {"shaders/sensing/sense.comp"},
-    {"ParametersBlock", "LiveDispatch", "SlotImages", "Bodies", "StripStarts", "CellOffsets", "WallSegments",
-     "WallStarts", "NarrowCells", "WallTiles", "owners", "page_table", "SensingPattern", "TouchDispatch",
-     "VehicleBoxes"},
+    {"ParametersBlock", "LiveDispatch", "Bands", "SlotImages", "Bodies", "StripStarts", "CellOffsets",
+     "WallSegments", "WallStarts", "NarrowCells", "WallTiles", "owners", "page_table", "SensingPattern",
+     "TouchDispatch", "VehicleBoxes"},
     {"Neighbours", "NeighbourCounts", "TouchWords", "TouchLists", "TouchSlots", "TouchDispatch"}};
 const gl::Declaration kCompare = {
     "sensing",
@@ -25,7 +25,7 @@ const gl::Declaration kCompare = {
 Sensing::Sensing(const gl::ShaderLibrary& library, Buffers& buffers, const Diagram& diagram,
                  const SensingOptions& options, const authoring::Scene& scene,
                  const gpu::Parameters& parameters)
-    : buffers_(buffers), proximity_(options.proximity) {
+    : buffers_(buffers), diagram_(diagram), proximity_(options.proximity) {
     if (needsDiagram())
         marchRays(library, diagram, options);
     else
@@ -73,6 +73,10 @@ void Sensing::compareExactly(const gl::ShaderLibrary& library, const SensingOpti
     far_wall_items_ = gl::makeBuffer("walls within reach", walls.items, "wall near a cell");
     program_.bind("FarWallStarts", far_wall_starts_);
     program_.bind("FarWallItems", far_wall_items_);
+}
+
+void Sensing::run(std::uint32_t band) {
+    diagram_.lookUpInBand(program_, band);
 }
 
 void Sensing::run() {

@@ -22,6 +22,8 @@ class Sensing {
     Sensing(const gl::ShaderLibrary& library, Buffers& buffers, const Diagram& diagram,
             const SensingOptions& options, const authoring::Scene& scene, const gpu::Parameters& parameters);
     void run();
+    /// Of a diagram in bands: those who stand in the one that has been built.
+    void run(std::uint32_t band);
     /// Whether run() reads the diagram.
     bool needsDiagram() const { return proximity_ == authoring::Proximity::voronoi; }
 
@@ -31,6 +33,7 @@ class Sensing {
                         const authoring::Scene& scene, const gpu::Parameters& parameters);
 
     Buffers& buffers_;
+    const Diagram& diagram_;
     authoring::Proximity proximity_;
     gl::Buffer pattern_;  ///< where people look: what rays are marched with
     gl::Buffer far_wall_starts_, far_wall_items_;

@@ -29,12 +29,6 @@ gl::Declaration packingOf(const StreamInfo& info, const gl::ShaderLibrary& libra
     return declaration;
 }
 
-std::uint32_t presentAtStart(const authoring::Scene& scene) {
-    return static_cast<std::uint32_t>(std::count_if(
-        scene.people.begin(), scene.people.end(),
-        [](const gpu::Person& person) { return (person.flags & gpu::PERSON_PRESENT_AT_START) != 0; }));
-}
-
 /// The first frame that shows what was so after `steps` steps.
 std::uint32_t frameOfStep(std::uint32_t steps, std::uint32_t warmup_steps, std::uint32_t substeps) {
     if (steps == gpu::NO_INDEX) return kNone;
@@ -78,7 +72,15 @@ std::uint32_t warmupSteps(const authoring::SimulationSettings& settings) {
 Simulation::Simulation(const authoring::Scene& scene, const gl::ShaderLibrary& library,
                        const CostModel& costs)
     : parts_(std::make_unique<Parts>(scene, library, costs)) {
-    adaptTo(presentAtStart(scene));
+    std::optional<LookedAtCount> looked_at = lookedAtCount();
+    std::uint32_t present = 0;
+    if (looked_at) looked_at->begin();
+    for (const gpu::Person& person : scene.people) {
+        if ((person.flags & gpu::PERSON_PRESENT_AT_START) == 0) continue;
+        ++present;
+        if (looked_at) looked_at->add(person.spawn_position);
+    }
+    adaptTo(present, looked_at ? looked_at->pixels() : 0.0);
 }
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
@@ -141,9 +143,18 @@ void Simulation::restore(const State& state) {
     p.kept.forget();
 }
 
-void Simulation::adaptTo(std::uint32_t people_present) {
+std::optional<LookedAtCount> Simulation::lookedAtCount() const {
+    const Parts& p = *parts_;
+    const DiagramMethod method = p.settings.method;
+    const bool chooses = method == DiagramMethod::automatic || method == DiagramMethod::binned;
+    if (!chooses || !p.sensing.needsDiagram() || p.diagram.paged() || p.buffers.hasCharts()) return {};
+    return LookedAtCount(p.parameters, p.look);
+}
+
+void Simulation::adaptTo(std::uint32_t people_present, double pixels_looked_at) {
     Parts& p = *parts_;
     p.load.sites = people_present;
+    p.load.looked_at = pixels_looked_at;
     if (p.diagram.paged() || p.settings.method == DiagramMethod::binned) {
         const bool listed = p.diagram.paged() || isWorthListing(p.load, p.look);
         p.extent = listed ? Extent::near_people : Extent::everywhere;

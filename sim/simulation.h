@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "base/frame.h"
 #include "sim/diagram/cost_model.h"
 #include "sim/diagram/diagram.h"
+#include "sim/diagram/looked_at.h"
 #include "sim/gl/shader_source.h"
 
 namespace throng::sim {
@@ -51,7 +53,11 @@ class Simulation {
     std::uint32_t stepsDone() const;
     /// Where the layout leaves the diagram's method open: the best one for so many people from here on. All
     /// that it chooses from give the same diagram, so it matters to nothing but speed.
-    void adaptTo(std::uint32_t people_present);
+    /// @param pixels_looked_at by lookedAtCount(), of these people or of not much earlier; 0: nobody has
+    /// counted
+    void adaptTo(std::uint32_t people_present, double pixels_looked_at = 0.0);
+    /// None where it would make no difference, and with charts, whose people do not stand where frames say.
+    std::optional<LookedAtCount> lookedAtCount() const;
     DiagramMethod diagramMethod() const;
     bool diagramIsPaged() const;
 

@@ -2,7 +2,10 @@
 #include "sim/simulation_parts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
+
+#include "sim/diagram/bands.h"
 
 namespace throng::sim {
 namespace {
@@ -26,20 +29,38 @@ SensingOptions sensingFor(const authoring::Scene& scene, const gpu::Parameters& 
     return options;
 }
 
-/// Pages where one buffer or texture cannot hold the window, and where most of a large window is empty: then
-/// clearing and gathering only what exists makes up for looking up where it is.
+/// Pages where neither one buffer or texture can hold the window nor bands of it do, and where most of a
+/// large window is empty: then clearing and gathering only what exists makes up for looking up where it is.
 bool isBestPaged(const DiagramOptions& options, std::size_t wall_sites) {
     constexpr double kMostWholePixels = 33'554'432.0;  // 128 MiB: what every device's storage blocks hold
     constexpr std::uint32_t kMostWholeSide = 16'384;
     constexpr double kWorthwhilePixels = 4'194'304.0;
     const double pixels = static_cast<double>(options.width) * options.height;
-    if (pixels > kMostWholePixels || std::max(options.width, options.height) > kMostWholeSide) return true;
+    const bool in_bands = options.bands.bin_lines > 0;
+    if (!in_bands && (pixels > kMostWholePixels || std::max(options.width, options.height) > kMostWholeSide))
+        return true;
     if (pixels < kWorthwhilePixels || options.method != DiagramMethod::binned) return false;
     const double paged_pixels =
         static_cast<double>(Pages::pagesNeeded(options.width, options.height, options.largest_radius,
                                                options.live_capacity + wall_sites)) *
         gpu::PAGE_SIDE * gpu::PAGE_SIDE;
     return paged_pixels < 0.25 * pixels;
+}
+
+/// A diagram of a large crowd takes nearly as much room as the crowd: a fifth of it at a time is enough.
+/// Small ones do without, as there each band takes two launches more than it saves in room.
+BandShape bandsFor(const DiagramOptions& options, const gpu::Parameters& parameters) {
+    constexpr double kWorthwhilePixels = 1'048'576.0, kMostKeptPixels = 16'777'216.0;
+    constexpr double kShare = 0.2, kMostShare = 0.6;
+    const double pixels = static_cast<double>(options.width) * options.height;
+    const bool possible = options.method == DiagramMethod::binned && !options.vehicles;
+    if (!possible || pixels < kWorthwhilePixels) return {};
+    BandShape shape;
+    shape.bin_side = parameters.cell_size * parameters.pixels_per_metre;
+    const double lines = std::min(kShare * options.height, kMostKeptPixels / options.width);
+    shape.bin_lines = std::max(1u, static_cast<std::uint32_t>(std::round(lines / double{shape.bin_side})));
+    const double kept = static_cast<double>(shape.lines(options.look)) * options.width;
+    return kept < kMostShare * pixels ? shape : BandShape{};
 }
 
 /// How far people look at the diagram, px: as far as their rays go, and themselves.
@@ -82,7 +103,9 @@ DiagramOptions diagramOptions(const authoring::Scene& scene, const gpu::Paramete
         std::max(parameters.tile_radius, scene.largest_radius) * parameters.pixels_per_metre;
     options.look = lookOf(scene, parameters);
     options.vehicles = vehiclesOf(scene, parameters, buffers);
+    options.bands = bandsFor(options, parameters);
     options.paged = isBestPaged(options, scene.wall_tiles.size());
+    if (options.paged) options.bands = {};
     return options;
 }
 
@@ -115,8 +138,7 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
                  : std::optional<Hiding>(std::in_place, library, buffers, scene, parameters,
                                          std::max(sensingReach(sensingFor(scene, parameters).geometry),
                                                   parameters.contact_range))),
-      slopes(scene.terrain && settings.motion.isOn("slope_pace") ? std::optional<TerrainSlopes>(scene.terrain)
-                                                                 : std::nullopt),
+      slopes(TerrainSlopes::of(scene)),
       seams(buffers.hasCharts() ? std::optional<Seams>(std::in_place, library, buffers, settings.motion)
                                 : std::nullopt),
       lifts(scene.chart_map.lifts.empty()
@@ -147,30 +169,46 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
       costs(cost_model),
       look(double{lookOf(scene, parameters)}),
       rows(parameters.row_count),
-      anybody_enters_later(std::ranges::any_of(
-          scene.people,
-          [](const gpu::Person& person) { return (person.flags & gpu::PERSON_PRESENT_AT_START) == 0; })),
-      passes(passesOfStep()) {
+      anybody_enters_later(std::ranges::any_of(scene.people, [](const gpu::Person& person) {
+          return (person.flags & gpu::PERSON_PRESENT_AT_START) == 0;
+      })) {
     // Slots are in the order of the cells, and cells and diagram have one origin.
     const BinGrid cell_grid(parameters.cell_size * parameters.pixels_per_metre,
                             {parameters.cells_width, parameters.cells_height});
     diagram.connect({&buffers.sites, &buffers.live_dispatch, &buffers.site_slots,
                      DiagramInput::Sorted{&buffers.strip_starts, &buffers.cell_offsets, cell_grid}});
+    if (diagram.bands()) costs = costs.only(DiagramMethod::binned);
     load = diagramLoad(scene, parameters);
+    passes = passesOfStep();
     for (const gpu::Platform& platform : scene.traffic.platforms)
         platform_sides.push_back(platform.side);
+}
+
+std::vector<Pass> Simulation::Parts::passesOfLooking() {
+    const auto build = [this] { stopped = !diagram.build(extent); };
+    const auto sense = [this] {
+        sensing.run();
+        if (hiding) hiding->run();
+    };
+    if (!sensing.needsDiagram()) return {{"sensing", sense}};
+    if (!diagram.bands()) return {{"diagram", build}, {"sensing", sense}};
+    std::vector<Pass> all = {{"diagram", build}};
+    for (std::uint32_t band = 0; band < diagram.bands()->count(); ++band) {
+        all.push_back({"diagram", [this, band] { diagram.buildBand(band, extent); }});
+        all.push_back({"sensing", [this, band] { sensing.run(band); }});
+    }
+    if (hiding) all.push_back({"sensing", [this] { hiding->run(); }});
+    return all;
+}
+
+void Simulation::Parts::lookRound() {
+    for (const Pass& pass : passesOfLooking())
+        pass.run();
 }
 
 std::vector<Pass> Simulation::Parts::passesOfStep() {
     const auto enter = [this] {
         if (anybody_enters_later) spawner.run(step_start, steps_done);
-    };
-    const auto build = [this] {
-        if (sensing.needsDiagram()) stopped = !diagram.build(extent);
-    };
-    const auto sense = [this] {
-        sensing.run();
-        if (hiding) hiding->run();
     };
     const auto decide = [this] {
         if (decides)
@@ -211,12 +249,10 @@ std::vector<Pass> Simulation::Parts::passesOfStep() {
     };
     std::vector<Pass> all = {{"cells", when_deciding(sort)},
                              {"routes", when_deciding([this] { congestion.run(); })},
-                             {"spawn", when_deciding(enter)},
-                             {"diagram", when_deciding(build)},
-                             {"sensing", when_deciding(sense)},
-                             {"avoidance", decide},
-                             {"contacts", touch},
-                             {"motion", move}};
+                             {"spawn", when_deciding(enter)}};
+    for (const Pass& pass : passesOfLooking())
+        all.push_back({pass.name, when_deciding(pass.run)});
+    all.insert(all.end(), {{"avoidance", decide}, {"contacts", touch}, {"motion", move}});
     // Who has come in walks on at once, and others see them: until the next decision nobody gets a slot.
     const bool sorts_again = anybody_enters_later || boarding;
     if (sorts_again) all.insert(all.begin() + 3, {"cells", when_deciding(sort)});

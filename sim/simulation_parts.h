@@ -96,6 +96,11 @@ struct Simulation::Parts {
     /// What the CPU does before the passes of a step.
     void beginStep();
     std::vector<Pass> passesOfStep();
+    /// From people as they are sorted to lists of those near them: the diagram and sensing, band by band
+    /// where the diagram is kept so.
+    std::vector<Pass> passesOfLooking();
+    /// These, one after the other, out of a step.
+    void lookRound();
 
     /// Whether people look round in the step after so many.
     bool decidesAfter(std::uint32_t steps) const {

@@ -7,6 +7,11 @@ TerrainSlopes::TerrainSlopes(std::shared_ptr<const authoring::Terrain> terrain)
     : terrain_(std::move(terrain)),
       nodes_(gl::makeBuffer("terrain nodes", terrain_->nodes(), "terrain node")) {}
 
+std::optional<TerrainSlopes> TerrainSlopes::of(const authoring::Scene& scene) {
+    if (!scene.terrain || !scene.settings.motion.isOn("slope_pace")) return std::nullopt;
+    return TerrainSlopes(scene.terrain);
+}
+
 void TerrainSlopes::describeTo(gl::Program& program) const {
     program.bind("TerrainNodes", nodes_);
     program.set("terrain_minimum", terrain_->minimum());

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
+#include "authoring/scene.h"
 #include "authoring/terrain/terrain.h"
 #include "sim/gl/buffer.h"
 #include "sim/gl/program.h"
@@ -13,6 +15,8 @@ namespace throng::sim {
 class TerrainSlopes {
   public:
     explicit TerrainSlopes(std::shared_ptr<const authoring::Terrain> terrain);
+    /// None on flat ground, and where slopes slow nobody.
+    static std::optional<TerrainSlopes> of(const authoring::Scene& scene);
 
     /// Connects a program that reads shaders/shared/terrain.glsl.
     void describeTo(gl::Program& program) const;

@@ -8,6 +8,9 @@
 namespace throng::cli {
 namespace {
 
+/// Crowds spread slowly, and nothing but speed depends on it.
+constexpr std::uint32_t kFramesBetweenCounts = 12;
+
 /// Those who are simulated.
 recording::BakeDescription withoutAudience(recording::BakeDescription description) {
     description.agents.resize(description.walkers());
@@ -30,6 +33,7 @@ FrameMaker::FrameMaker(sim::Simulation& simulation, const authoring::SimulationS
       substeps_(static_cast<std::uint32_t>(settings.substeps)),
       recorder_(withoutAudience(description),
                 [this, to = std::move(shown)](const Frame& frame) { to(audience_.with(frame)); }),
+      looked_at_(simulation.lookedAtCount()),
       pump_(simulation, {diagrams.every > 0, diagrams.seconds, fromDevice(description.asked)},
             [this](const Frame& frame) { receive(frame); }) {}
 
@@ -53,7 +57,7 @@ bool FrameMaker::makeFrame(std::uint32_t frame) {
     for (std::uint32_t step = 0; frame > 0 && step < substeps_; ++step)
         if (!simulation_.step()) return false;
     if (!pump_.submit(frame, diagrams_.every > 0 && frame % diagrams_.every == 0)) return false;
-    simulation_.adaptTo(walking_);
+    simulation_.adaptTo(walking_, pixels_looked_at_);
     return true;
 }
 
@@ -64,12 +68,21 @@ void FrameMaker::tellWhoHasGone() {
         if (agents[row].status == AgentStatus::arrived) empty_->hasGone(row);
 }
 
+void FrameMaker::countLookedAt(const Frame& frame) {
+    const std::span<const float> states = frame[Stream::state], places = frame[Stream::pos];
+    looked_at_->begin();
+    for (std::size_t at = 0; at < states.size(); at += kComponents)
+        if (states[at] > 0.5f) looked_at_->add({places[at], places[at + 1]});
+    pixels_looked_at_ = looked_at_->pixels();
+}
+
 void FrameMaker::receive(const Frame& frame) {
     std::uint32_t alive = 0;
     const std::span<const float> states = frame[Stream::state];
     for (std::size_t at = 0; at < states.size(); at += kComponents)
         alive += states[at] > 0.5f;
     walking_ = alive;
+    if (looked_at_ && frame.index % kFramesBetweenCounts == 0) countLookedAt(frame);
     if (empty_ && !empty_->take(frame)) return;
     simulated_(frame);
     recorder_.take(frame);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "authoring/layout.h"
 #include "cli/baking/empty_watch.h"
@@ -59,6 +60,7 @@ class FrameMaker {
   private:
     void tellWhoHasGone();
     void receive(const Frame& frame);
+    void countLookedAt(const Frame& frame);
 
     sim::Simulation& simulation_;
     Diagrams diagrams_;
@@ -68,6 +70,8 @@ class FrameMaker {
     std::uint32_t seated_, warmup_, substeps_;
     recording::MotionRecorder recorder_;
     std::atomic<std::uint32_t> walking_{0};
+    std::optional<sim::LookedAtCount> looked_at_;
+    std::atomic<double> pixels_looked_at_{0.0};
     std::unique_ptr<EmptyWatch> empty_;
     sim::FramePump pump_;  // last: its thread uses the others
 };

@@ -35,7 +35,8 @@ uniform uint pages_per_line;
 #ifdef PAGED
 uniform uint first_page;  // of the range of the store that is bound
 #else
-uniform vec2 diagram_size;  // whole pixels
+uniform uvec2 lines;         // px: the first that is kept, and one past the last
+uniform uint diagram_width;  // px
 #endif
 #ifdef FIXED_LAYERS
 layout(std430) readonly buffer FixedPlaces { uint fixed_places[]; };  // of squares of PAGE_SIDE px; 0: no fixed site
@@ -73,15 +74,15 @@ bool placeBlock(out uvec2 corner, out uint first_word, out uint words_per_line, 
     words_in_line = 0xffffffffu;  // pages go on beyond the edge of the window
     return true;
 #else
-    uint width = uint(diagram_size.x);
 #ifndef LISTED
-    uint blocks_per_line = (width + BLOCK_WIDTH - 1u) / BLOCK_WIDTH;
+    uint blocks_per_line = (diagram_width + BLOCK_WIDTH - 1u) / BLOCK_WIDTH;
     corner = uvec2(block % blocks_per_line, block / blocks_per_line) * uvec2(BLOCK_WIDTH, BLOCK_HEIGHT);
+    corner.y += lines.x;
 #endif
-    first_word = corner.y * width + corner.x;
-    words_per_line = width;
-    words_in_line = width;
-    return corner.y < uint(diagram_size.y);
+    first_word = (corner.y - lines.x) * diagram_width + corner.x;
+    words_per_line = diagram_width;
+    words_in_line = diagram_width;
+    return corner.y >= lines.x && corner.y < lines.y;
 #endif
 }
 
@@ -152,7 +153,7 @@ void main() {
 
     for (uint y = 0u; y < BLOCK_HEIGHT; ++y) {
 #ifndef PAGED
-        if (block_corner.y + y >= uint(diagram_size.y)) break;
+        if (block_corner.y + y >= lines.y) break;
 #endif
         uint word = first_word + y * words_per_line;
         uint pixel = y * BLOCK_WIDTH;

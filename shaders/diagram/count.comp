@@ -4,17 +4,20 @@
 #include "shaders/shared/simulation_types.h"
 
 layout(local_size_x = AGENT_GROUP_SIZE) in;
+#ifndef BANDED
 layout(std430) readonly buffer LiveDispatch { uint live_groups[3]; uint live_count; };
+#endif
 layout(std430) readonly buffer Sites { DiagramSite sites[]; };
 layout(std430) writeonly buffer PixelCounts { uint pixel_counts[]; };
 uniform vec2 diagram_size;  // whole pixels
 
 #include "shaders/diagram/splat.glsl"
 #include "shaders/diagram/owners.glsl"
+#include "shaders/diagram/band_slots.glsl"
 
 void main() {
-    uint index = gl_GlobalInvocationID.x;
-    if (index >= live_count) return;
+    uint index;
+    if (!findSlot(index)) return;
     DiagramSite site = sites[index];
     ivec4 box = tileBox(site.position, site.radius);
     uint owned = 0u;

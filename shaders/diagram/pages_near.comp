@@ -4,7 +4,9 @@
 #include "shaders/shared/simulation_types.h"
 
 layout(local_size_x = AGENT_GROUP_SIZE) in;
+#ifndef BANDED
 layout(std430) readonly buffer LiveDispatch { uint live_groups[3]; uint live_count; };
+#endif
 layout(std430) readonly buffer Sites { DiagramSite sites[]; };
 layout(std430) buffer PageStamps { uint page_stamps[]; };  // the last build that listed the page
 layout(std430) buffer PageCount { uint page_groups[3]; uint page_count; };
@@ -15,11 +17,12 @@ uniform uint pages_per_line;
 uniform uint pages_per_group;  // of the pass that fills them
 uniform uint stamp;            // of this build
 
+#include "shaders/diagram/band_slots.glsl"
 #include "shaders/diagram/near.glsl"
 
 void main() {
-    uint index = gl_GlobalInvocationID.x;
-    if (index >= live_count) return;
+    uint index;
+    if (!findSlot(index)) return;
     uvec2 lower, upper;
     pagesNear(sites[index].position, max(look, sites[index].radius), lower, upper);
     for (uint y = lower.y; y <= upper.y; ++y)

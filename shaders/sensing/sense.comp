@@ -16,6 +16,7 @@
 
 #include "shaders/sensing/neighbour_list.glsl"
 #include "shaders/diagram/owners.glsl"
+#include "shaders/diagram/band_slots.glsl"
 #include "shaders/charts/slot_images.glsl"
 
 #ifdef TRAFFIC
@@ -70,8 +71,8 @@ void weighBody(Body self, uint slot) {
 }
 
 void main() {
-    uint slot = gl_GlobalInvocationID.x;
-    if (slot >= live_count || holdsImage(slot)) return;
+    uint slot;
+    if (!findSlot(slot) || holdsImage(slot)) return;
     Body self = bodies[slot];
     forgetEverybody();
     uint touch_word = feelContacts(self, slot);

@@ -179,6 +179,16 @@ struct DiagramSite {
 };
 
 /// What a person asks for when it wants to enter.
+/// The part of a diagram's work that is done while one band of it is kept (sim/diagram/bands.h): a dispatch over the
+/// sites whose places are in it, which stand together, and which those are.
+struct Band {
+    uint groups_x;
+    uint groups_y;
+    uint groups_z;
+    uint first_slot;
+    uint end_slot;
+};
+
 struct SpawnProposal {
     vec2 position;
     float radius;

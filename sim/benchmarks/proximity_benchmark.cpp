@@ -59,8 +59,7 @@ void timeSteps(Runner& runner, int steps) {
 Lists senseNow(Simulation& simulation) {
     Simulation::Parts& parts = simulation.parts();
     parts.cells.run();
-    if (parts.sensing.needsDiagram()) parts.diagram.build(parts.extent);
-    parts.sensing.run();
+    parts.lookRound();
     const std::uint32_t capacity = parts.buffers.slotCapacity();
     const auto bodies = parts.buffers.bodies.download<gpu::Body>(parts.rows);
     const auto counts = parts.buffers.neighbour_counts.download<std::uint32_t>(parts.rows);

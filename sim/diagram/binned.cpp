@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
+#include "sim/diagram/bands.h"
 #include "sim/diagram/gather.h"
 #include "sim/diagram/methods.h"
 
@@ -13,7 +14,7 @@ const gl::Declaration kCountGroups = {
     "diagram", {"shaders/diagram/page_dispatch.comp"}, {"PageCount"}, {"PageDispatch"}};
 const gl::Declaration kListPages = {"diagram",
                                     {"shaders/diagram/pages_near.comp"},
-                                    {"LiveDispatch", "Sites", "PageStamps", "PageCount"},
+                                    {"LiveDispatch", "Bands", "Sites", "PageStamps", "PageCount"},
                                     {"PageStamps", "PageCount", "PageList"}};
 
 /// Whose blocks one group of a pass works on.
@@ -29,8 +30,6 @@ constexpr float kMostBinRadii = 3.5f;
 BinnedDiagram::BinnedDiagram(const DiagramSetup& setup, Pages* pages)
     : library_(setup.library),
       options_(setup.options),
-      blocks_(blocksAcross(setup.options.width, setup.options.gather.block_width) *
-              blocksAcross(setup.options.height, setup.options.gather.block_height)),
       gather_(gatherProgram(setup.library, setup.options, pages ? Gathering::pages : Gathering::whole,
                             !setup.fixed_sites.empty())),
       fixed_(setup.fixed_sites.empty() ? nullptr : &setup.sparse()),
@@ -71,7 +70,9 @@ void BinnedDiagram::setUpNear() {
     near_->list = gl::Buffer("diagram pages looked at", {pages, 4, "page of the window"});
     near_->count = gl::Buffer("diagram pages looked at, count", 16);
     near_->none = gl::makeBuffer("no diagram pages", std::vector<std::uint32_t>{0, 1, 1, 0});
-    near_->list_pages = gl::ComputeProgram(library_, kListPages);
+    near_->list_pages = gl::ComputeProgram(
+        library_, kListPages,
+        options_.bands.bin_lines > 0 ? gl::Definitions{{"BANDED", "1"}} : gl::Definitions{});
     near_->list_pages.bind("PageStamps", near_->stamps);
     near_->list_pages.set("diagram_size", glm::vec2(options_.width, options_.height));
     near_->list_pages.set("look", options_.look);
@@ -108,13 +109,16 @@ void BinnedDiagram::connect(const DiagramInput& input) {
 void BinnedDiagram::connectNear() {
     connectGather(near_->gather);
     near_->list_pages.bind("Sites", *input_.sites);
-    near_->list_pages.bind("LiveDispatch", *input_.live_dispatch);
+    if (options_.bands.bin_lines == 0) near_->list_pages.bind("LiveDispatch", *input_.live_dispatch);
 }
 
 void BinnedDiagram::connectGather(gl::ComputeProgram& gather) {
     gather.set("largest_radius", options_.largest_radius);
     gather.bind("Owners", owners_);
-    if (!pages_) gather.set("diagram_size", glm::vec2(options_.width, options_.height));
+    if (!pages_) {
+        gather.set("diagram_width", options_.width);
+        gather.set("lines", glm::uvec2(0, options_.height));
+    }
     grid_->describeTo(gather);
     gather.bind("StripStarts", bins_ ? no_strips_ : *input_.sorted->strip_starts);
     gather.bind("CellOffsets", bins_ ? bins_->starts() : *input_.sorted->starts);
@@ -122,22 +126,44 @@ void BinnedDiagram::connectGather(gl::ComputeProgram& gather) {
     if (fixed_) fixed_->describeTo(gather);
 }
 
+std::uint64_t BinnedDiagram::blocks(std::uint32_t lines) const {
+    return blocksAcross(options_.width, options_.gather.block_width) *
+           blocksAcross(lines, options_.gather.block_height);
+}
+
 void BinnedDiagram::build(Extent extent) {
     if (bins_) bins_->sort();
+    if (options_.bands.bin_lines > 0) return;  // until one is asked for
     if (pages_) {
         buildPages(extent);
     } else if (extent == Extent::near_people && canBuildNear()) {
-        buildNear();
+        buildNear([this] { near_->list_pages.dispatchIndirect(*input_.live_dispatch); });
     } else {
-        gather_.dispatch(blocks_);
+        gather_.dispatch(blocks(options_.height));
     }
 }
 
-void BinnedDiagram::buildNear() {
+void BinnedDiagram::buildBand(const Bands& bands, std::uint32_t band, Extent extent) {
+    const glm::uvec2 lines = bands.lines(band);
+    if (extent == Extent::near_people && canBuildNear()) {
+        buildNear([&] {
+            near_->gather.set("lines", lines);
+            bands.describeTo(near_->list_pages);
+            bands.dispatch(near_->list_pages, band);
+        });
+    } else {
+        gather_.set("lines", lines);
+        gather_.dispatch(blocks(lines.y - lines.x));
+    }
+}
+
+/// @param list runs the program that lists the pages
+template <class List>
+void BinnedDiagram::buildNear(List list) {
     if (!near_) setUpNear();
     near_->count.copyFrom(near_->none);
     near_->list_pages.set("stamp", ++near_->stamp);
-    near_->list_pages.dispatchIndirect(*input_.live_dispatch);
+    list();
     near_->gather.dispatchIndirect(near_->count);
 }
 

@@ -2,6 +2,7 @@
 #include "sim/diagram/cost_model.h"
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 
 namespace throng::sim {
@@ -29,6 +30,7 @@ DiagramLoad DiagramLoad::nearPeople(double look) const {
     constexpr double kPagePixels = double{gpu::PAGE_SIDE} * gpu::PAGE_SIDE;
     DiagramLoad near = *this;
     near.pixels = std::min(pixels, sites * pagesLookedAt(look) * kPagePixels);
+    if (looked_at > 0.0) near.pixels = std::min(near.pixels, looked_at);
     return near;
 }
 
@@ -67,6 +69,13 @@ DiagramPlan CostModel::plan(const DiagramLoad& load, double look, const DiagramP
     }
     if (present.cost && milliseconds(present) <= 1.1 * milliseconds(best)) return present;
     return best;
+}
+
+CostModel CostModel::only(DiagramMethod method) const {
+    CostModel found{device, {}};
+    std::ranges::copy_if(costs, std::back_inserter(found.costs),
+                         [&](const MethodCost& cost) { return cost.method == method; });
+    return found;
 }
 
 CostModel CostModel::builtIn() {

@@ -15,6 +15,7 @@ struct DiagramLoad {
     double radius = 1.0;  ///< px, the largest tile
     double pixels = 0.0;  ///< of the window, or as many as are brought up to date
     double fixed_sites = 0.0;
+    double looked_at = 0.0;  ///< px, of the window, that somebody looks at; 0: as many as there may be
 
     /// What is left of it where only what people look at is built.
     /// @param look px: how far they do
@@ -52,6 +53,9 @@ struct CostModel {
     const MethodCost& choose(const DiagramLoad& load, const MethodCost* present = nullptr) const;
     /// The same where building what people look at, `look` px around them, is enough.
     DiagramPlan plan(const DiagramLoad& load, double look, const DiagramPlan& present = {}) const;
+
+    /// The same without all other methods.
+    CostModel only(DiagramMethod method) const;
 
     /// Measured on Mesa llvmpipe, two cores: what is used where nobody has calibrated.
     static CostModel builtIn();

@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "sim/diagram/bands.h"
 #include "sim/diagram/methods.h"
 #include "sim/gl/context.h"
 
@@ -26,12 +27,18 @@ const gl::Declaration kFindSeconds = {
     {"Seconds"}};
 const gl::Declaration kCountLookedUp = {"densities",
                                         {"shaders/diagram/count.comp"},
-                                        {"LiveDispatch", "Sites", "owners", "page_table"},
+                                        {"LiveDispatch", "Bands", "Sites", "owners", "page_table"},
                                         {"PixelCounts"}};
 
 /// One word a pixel.
 gl::Room picture(const DiagramOptions& options) {
     return {std::size_t{options.width} * options.height, 4, "pixel"};
+}
+
+/// One word a pixel that is kept.
+gl::Room keptOf(const DiagramOptions& options) {
+    if (options.bands.bin_lines == 0) return picture(options);
+    return {std::size_t{options.width} * options.bands.lines(options.look), 4, "pixel of a band"};
 }
 
 glm::uvec2 sizeOf(const DiagramOptions& options) {
@@ -45,6 +52,7 @@ struct Diagram::Extras {
     struct WholeOwners {
         gl::Buffer owners;
         gl::ComputeProgram flatten;
+        bool known = false;  // since the last build
     };
     struct Distances {
         gl::Buffer distances;
@@ -86,7 +94,7 @@ Diagram::Diagram(const gl::ShaderLibrary& library, const DiagramOptions& options
         owners_ = std::make_unique<gl::Buffer>("diagram pages", pages_->store(), gl::Buffer::Use::in_ranges);
         table_texture_ = gl::WordTexture(pages_->table());
     } else {
-        owners_ = std::make_unique<gl::Buffer>("diagram owners", picture(options_));
+        owners_ = std::make_unique<gl::Buffer>("diagram owners", keptOf(options_));
     }
     owners_->fill(gpu::NO_INDEX);
     owner_texture_ = gl::WordTexture(*owners_);
@@ -146,8 +154,8 @@ std::unique_ptr<Diagram::Implementation> Diagram::make() {
 }
 
 void Diagram::use(DiagramMethod method, const GatherShape& gather) {
-    if (options_.paged && method != DiagramMethod::binned)
-        throw std::logic_error("a paged diagram has one method");
+    if ((options_.paged || options_.bands.bin_lines > 0) && method != DiagramMethod::binned)
+        throw std::logic_error("a diagram that is not kept whole has one method");
     options_.method = method;
     options_.gather = gather;
     auto known = std::find_if(made_.begin(), made_.end(), [&](const Made& made) {
@@ -163,6 +171,7 @@ void Diagram::use(DiagramMethod method, const GatherShape& gather) {
 
 void Diagram::connect(const DiagramInput& input) {
     input_ = input;
+    if (options_.bands.bin_lines > 0) bands_ = std::make_unique<Bands>(library_, options_, input_);
     for (Made& made : made_)
         made.implementation->connect(input);
     if (vehicle_cells_) vehicle_cells_->connect(*input.sites, *input.site_slots);
@@ -180,14 +189,25 @@ void Diagram::changeFixedSites(std::span<const gpu::DiagramSite> fixed_sites) {
     extras_ = std::make_unique<Extras>();
 }
 
+void Diagram::Implementation::buildBand(const Bands&, std::uint32_t, Extent) {
+    throw std::logic_error("not a way to build diagrams in bands");
+}
+
 bool Diagram::build(Extent extent) {
+    if (bands_) bands_->findSlots();
+    if (extras_->whole) extras_->whole->known = false;
     long_work_->stopped = false;
     current_->build(extent);
     if (vehicle_cells_) vehicle_cells_->run();
     return !long_work_->stopped;
 }
 
+void Diagram::buildBand(std::uint32_t band, Extent extent) {
+    current_->buildBand(*bands_, band, extent);
+}
+
 gl::Definitions Diagram::lookupDefinitions() const {
+    if (options_.bands.bin_lines > 0) return {{"BANDED", "1"}};
     return options_.paged ? gl::Definitions{{"PAGED", "1"}} : gl::Definitions{};
 }
 
@@ -197,7 +217,31 @@ void Diagram::describeTo(gl::Program& program) const {
     if (pages_) program.bind("page_table", table_texture_);
 }
 
+void Diagram::lookUpInBand(gl::ComputeProgram& program, std::uint32_t band) const {
+    program.set("first_line", bands_->lines(band).x);
+    bands_->describeTo(program);
+    bands_->dispatch(program, band);
+}
+
+/// All bands under each other, once for each build.
+const gl::Buffer& Diagram::assembleBands() {
+    if (!extras_->whole) {
+        extras_->whole.emplace();
+        extras_->whole->owners = gl::Buffer("diagram owners, whole", picture(options_));
+    }
+    if (extras_->whole->known) return extras_->whole->owners;
+    const std::size_t line_bytes = std::size_t{options_.width} * gl::kWord;
+    for (std::uint32_t band = 0; band < bands_->count(); ++band) {
+        buildBand(band);
+        const glm::uvec2 lines = bands_->lines(band);
+        extras_->whole->owners.copyFrom(*owners_, lines.x * line_bytes, (lines.y - lines.x) * line_bytes);
+    }
+    extras_->whole->known = true;
+    return extras_->whole->owners;
+}
+
 const gl::Buffer& Diagram::wholeOwners() {
+    if (bands_) return assembleBands();
     if (!options_.paged) return *owners_;
     if (!extras_->whole) {
         extras_->whole.emplace();
@@ -270,13 +314,17 @@ const gl::Buffer& Diagram::countPixels() {
         gl::ComputeProgram& count = extras_->counts->count;
         count = gl::ComputeProgram(library_, kCountLookedUp, lookupDefinitions());
         count.bind("Sites", *input_.sites);
-        count.bind("LiveDispatch", *input_.live_dispatch);
+        if (!bands_) count.bind("LiveDispatch", *input_.live_dispatch);
         count.bind("PixelCounts", extras_->counts->counts);
         count.set("diagram_size", glm::vec2(options_.width, options_.height));
         describeTo(count);
     }
     extras_->counts->counts.fill(0);
-    extras_->counts->count.dispatchIndirect(*input_.live_dispatch);
+    if (!bands_) extras_->counts->count.dispatchIndirect(*input_.live_dispatch);
+    for (std::uint32_t band = 0; bands_ && band < bands_->count(); ++band) {
+        buildBand(band);
+        lookUpInBand(extras_->counts->count, band);
+    }
     return extras_->counts->counts;
 }
 

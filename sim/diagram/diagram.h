@@ -30,6 +30,15 @@ struct GatherShape {
     bool operator==(const GatherShape&) const = default;
 };
 
+/// How a diagram is cut of which one band of lines is kept at a time: sim/diagram/bands.h.
+struct BandShape {
+    std::uint32_t bin_lines = 0;  ///< lines of the bins that sites come sorted by; 0: it is kept whole
+    float bin_side = 0.0f;        ///< px, of these bins
+
+    /// px: how many lines are kept. @param look px: how far people look
+    std::uint32_t lines(float look) const;
+};
+
 /// Where diagrams are built and how.
 struct DiagramOptions {
     DiagramMethod method = DiagramMethod::binned;  ///< not `automatic`: whoever makes a diagram has chosen
@@ -41,6 +50,7 @@ struct DiagramOptions {
     GatherShape gather;                            ///< binned only
     float look = 0.0f;                             ///< px: how far from moving sites owners are looked up
     bool paged = false;                            ///< kept page by page (sim/diagram/pages.h); binned only
+    BandShape bands = {};                          ///< not with pages or vehicles; binned only
     std::optional<VehicleSites> vehicles = {};     ///< that are laid over it
 };
 
@@ -70,6 +80,7 @@ struct LongWork {
     bool stopped = false;        ///< the last build: its result is not complete
 };
 
+class Bands;
 class FixedLayers;
 class SparseLayers;
 
@@ -99,6 +110,10 @@ class Diagram {
 
     /// @returns false where the build was stopped: the owners are then of no use
     bool build(Extent extent = Extent::everywhere);
+    /// Null: it is kept whole, or in pages. Otherwise there are owners to look up after build() and then
+    /// buildBand() only, for those who stand in this band.
+    const Bands* bands() const { return bands_.get(); }
+    void buildBand(std::uint32_t band, Extent extent = Extent::everywhere);
     /// @param stop tells whether to put an end to a build that takes long; null: nobody does
     void stopWhen(std::function<bool()> stop) { long_work_->stop = std::move(stop); }
 
@@ -108,6 +123,8 @@ class Diagram {
     const gl::Buffer& owners() const { return *owners_; }
     /// Makes a program with shaders/diagram/owners.glsl look up owners here.
     void describeTo(gl::Program& program) const;
+    /// Runs such a program over those who stand in the band that has been built.
+    void lookUpInBand(gl::ComputeProgram& program, std::uint32_t band) const;
     /// What such a program has to be compiled with.
     gl::Definitions lookupDefinitions() const;
     /// The id of the first vehicle: those of all sites are below it.
@@ -117,7 +134,7 @@ class Diagram {
     bool paged() const { return options_.paged; }
 
     /// What may be asked of a built diagram; each call works from the owners as they are.
-    /// The owners as one picture, whether paged or not.
+    /// The owners as one picture, whether paged or in bands or not.
     const gl::Buffer& wholeOwners();
     /// Squared distances to the owners, float, px^2; infinite where there is no owner.
     const gl::Buffer& measureDistances();
@@ -135,18 +152,22 @@ class Diagram {
         virtual ~Implementation() = default;
         virtual void connect(const DiagramInput& input) = 0;
         virtual void build(Extent extent) = 0;
+        /// Of a diagram in bands: one of them, after build(), which then makes ready for all.
+        virtual void buildBand(const Bands& bands, std::uint32_t band, Extent extent);
     };
 
   private:
     struct Extras;
     std::unique_ptr<Implementation> make();
     std::unique_ptr<SparseLayers> makeSparseLayers() const;
+    const gl::Buffer& assembleBands();
 
     gl::ShaderLibrary library_;
     DiagramOptions options_;
     std::vector<gpu::DiagramSite> fixed_sites_;
     std::unique_ptr<LongWork> long_work_;
     std::unique_ptr<Pages> pages_;
+    std::unique_ptr<Bands> bands_;
     std::unique_ptr<FixedLayers> fixed_layers_;
     std::unique_ptr<SparseLayers> sparse_layers_;
     std::optional<VehicleCells> vehicle_cells_;

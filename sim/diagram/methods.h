@@ -76,6 +76,7 @@ class BinnedDiagram final : public Diagram::Implementation {
     BinnedDiagram(const DiagramSetup& setup, Pages* pages);
     void connect(const DiagramInput& input) override;
     void build(Extent extent) override;
+    void buildBand(const Bands& bands, std::uint32_t band, Extent extent) override;
 
   private:
     void setUpPages(const DiagramSetup& setup);
@@ -84,14 +85,15 @@ class BinnedDiagram final : public Diagram::Implementation {
     void connectNear();
     void connectGather(gl::ComputeProgram& gather);
     void buildPages(Extent extent);
-    void buildNear();
+    template <class List>
+    void buildNear(List list);
+    std::uint64_t blocks(std::uint32_t lines) const;
 
     gl::ShaderLibrary library_;
     DiagramOptions options_;
     std::optional<SiteBins> bins_;  // unless the sites come sorted
     gl::Buffer no_strips_;          // beside bins_
     gl::WordTexture sorted_sites_;  // where the sites do come sorted
-    std::uint64_t blocks_;
     gl::ComputeProgram gather_;
     const SparseLayers* fixed_;       // null: there are no fixed sites
     std::optional<BinnedNear> near_;  // made at the first asking

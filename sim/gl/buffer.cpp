@@ -92,9 +92,13 @@ void Buffer::fill(std::uint32_t word) {
 }
 
 void Buffer::copyFrom(const Buffer& source) {
+    copyFrom(source, 0, std::min(bytes_, source.bytes_));
+}
+
+void Buffer::copyFrom(const Buffer& source, std::size_t to, std::size_t bytes) {
     note("copy", &source, this);
-    glCopyNamedBufferSubData(source.handle_, handle_, 0, 0,
-                             static_cast<GLsizeiptr>(std::min(bytes_, source.bytes_)));
+    glCopyNamedBufferSubData(source.handle_, handle_, 0, static_cast<GLintptr>(to),
+                             static_cast<GLsizeiptr>(bytes));
 }
 
 void Buffer::uploadBytes(std::span<const std::byte> bytes, std::size_t offset) {

@@ -51,6 +51,8 @@ class Buffer {
 
     void fill(std::uint32_t word);
     void copyFrom(const Buffer& source);
+    /// The first bytes of another, to somewhere in this one.
+    void copyFrom(const Buffer& source, std::size_t to, std::size_t bytes);
 
     template <class T>
     void upload(std::span<const T> items, std::size_t first_item = 0) {

@@ -184,8 +184,7 @@ class BodyContactTest : public GpuTest {
         parts.buffers.states.upload(statesOf(scene));
         parts.buffers.chests.upload(chestsOf(scene));
         parts.cells.run();
-        parts.diagram.build(parts.extent);
-        parts.sensing.run();
+        parts.lookRound();
     }
     /// How far apart some rounds end, the first of which notes who is near for the others, and as many first
     /// rounds, m. @param pushed receives how far they push anybody

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/diagram/cost_model.h"
 
+#include <algorithm>
 #include <cmath>
+#include <random>
+#include <set>
+#include <utility>
 
 #include "sim/benchmarks/calibration.h"
+#include "sim/diagram/looked_at.h"
 #include "sim/simulation_parts.h"
 #include "tests/sim/gpu_test.h"
 #include "tests/sim/scenes.h"
@@ -79,7 +84,68 @@ TEST(CostModel, BuildsWhatPeopleLookAtWhereThatIsLittle) {
     EXPECT_EQ(model.plan(few, look, far), far);
 }
 
+TEST(CostModel, KnowsCrowdsThatStandTogetherFromThoseWhoStandApart) {
+    const CostModel model = CostModel::builtIn();
+    const double look = 17.0;
+    sim::DiagramLoad load{16384, 3, 28.0e6};
+    EXPECT_FALSE(sim::isWorthListing(load, look));
+    EXPECT_EQ(model.plan(load, look).extent, sim::Extent::everywhere);
+    load.looked_at = 7.0e5;
+    EXPECT_DOUBLE_EQ(load.nearPeople(look).pixels, 7.0e5);
+    EXPECT_TRUE(sim::isWorthListing(load, look));
+    EXPECT_EQ(model.plan(load, look).extent, sim::Extent::near_people);
+    load.looked_at = 20.0e6;
+    EXPECT_FALSE(sim::isWorthListing(load, look));
+    // People have gone since they were counted.
+    load.sites = 4;
+    EXPECT_LT(load.nearPeople(look).pixels, 1.0e5);
+}
+
+TEST(LookedAtCount, IsThatOfPagesWithinReachOfSomebody) {
+    gpu::Parameters parameters{};
+    parameters.diagram_minimum = {-20.0f, 5.0f};
+    parameters.pixels_per_metre = 3.0f;
+    parameters.diagram_width = 257;
+    parameters.diagram_height = 130;
+    constexpr double kLook = 21.0;
+    sim::LookedAtCount count(parameters, kLook);
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> x(-30.0f, 80.0f), y(0.0f, 60.0f);
+    for (const int people : {0, 1, 63, 1234}) {  // the same counter: nothing is left of the last time
+        count.begin();
+        std::set<std::pair<int, int>> pages;
+        for (int i = 0; i < people; ++i) {
+            const glm::vec2 place(x(random), y(random));
+            count.add(place);
+            const glm::vec2 pixel = (place - parameters.diagram_minimum) * 3.0f;
+            const auto seen = [](float at, double reach, int size) {
+                return static_cast<int>(std::clamp(double{at} + reach, 0.0, size - 1.0)) / 16;
+            };
+            for (int up = seen(pixel.y, -kLook - 1, 130); up <= seen(pixel.y, kLook + 1, 130); ++up)
+                for (int at = seen(pixel.x, -kLook - 1, 257); at <= seen(pixel.x, kLook + 1, 257); ++at)
+                    pages.insert({at, up});
+        }
+        EXPECT_DOUBLE_EQ(count.pixels(), 256.0 * static_cast<double>(pages.size())) << people;
+    }
+}
+
 class AdaptTest : public GpuTest {};
+
+TEST_F(AdaptTest, ACrowdInACornerLooksAtThatCornerOnly) {
+    authoring::Scene scene = uniformScene(1234, 1.2f, 5);
+    scene.maximum = {150, 150};
+    sim::Simulation corner(scene, library);
+    EXPECT_EQ(corner.parts().extent, sim::Extent::near_people);
+    for (std::size_t i = 0; i < scene.people.size(); ++i)
+        scene.people[i].spawn_position = {4.2f * static_cast<float>(i % 35),
+                                          4.2f * static_cast<float>(i / 35)};
+    sim::Simulation everywhere(scene, library);
+    EXPECT_EQ(everywhere.parts().extent, sim::Extent::everywhere);
+    everywhere.adaptTo(1234, 1.0e4);
+    EXPECT_EQ(everywhere.parts().extent, sim::Extent::near_people);
+    scene.settings.proximity = authoring::Proximity::grid;
+    EXPECT_FALSE(sim::Simulation(scene, library).lookedAtCount());
+}
 
 TEST_F(AdaptTest, ChangingTheMethodOnTheWayChangesNothingElse) {
     CostModel model;

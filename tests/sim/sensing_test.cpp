@@ -5,6 +5,7 @@
 #include <set>
 
 #include "sim/benchmarks/proximity_benchmark.h"
+#include "sim/diagram/bands.h"
 #include "sim/sensing_pattern.h"
 #include "sim/simulation_parts.h"
 #include "tests/sim/gpu_test.h"
@@ -232,6 +233,29 @@ TEST_F(SensingTest, CrossesTheBordersOfPagesWithoutASeam) {
     EXPECT_FALSE(whole.diagramIsPaged());
     EXPECT_TRUE(paged.diagramIsPaged());
     EXPECT_EQ(senseNow(paged), senseNow(whole));
+}
+
+TEST_F(SensingTest, CrossesTheBordersOfBandsWithoutASeam) {
+    for (const std::uint32_t count : {9u, 1234u}) {
+        authoring::Scene scene = uniformScene(count, count < 100 ? 13.0f : 1.1f, 34);
+        addWall(scene, {5, 5}, {30, 22});
+        addPerson(scene, {-40.0f, -40.0f}, {20, 20});  // outside, where places are those at the edge
+        addPerson(scene, {90.0f, 140.0f}, {20, 20});
+        scene.settings.pixels_per_metre = 28.0;
+        scene.settings.method = authoring::DiagramMethod::per_site;
+        sim::Simulation whole(scene, library);
+        scene.settings.method = authoring::DiagramMethod::automatic;
+        sim::Simulation banded(scene, library);
+        ASSERT_EQ(whole.diagram().bands(), nullptr);
+        ASSERT_NE(banded.diagram().bands(), nullptr);
+        EXPECT_GE(banded.diagram().bands()->count(), 4u);
+        for (int step = 0; step < 40; ++step) {
+            whole.step();
+            banded.step();
+        }
+        EXPECT_EQ(senseNow(banded), senseNow(whole)) << count;
+        EXPECT_EQ(banded.parts().extent == sim::Extent::near_people, count < 100u);
+    }
 }
 
 TEST_F(SensingTest, TheGridAndComparingAllWithAllAgreeExactly) {
