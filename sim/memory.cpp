@@ -40,22 +40,26 @@ bool mayBuildPerSite(const authoring::Scene& scene, const gpu::Parameters& param
 std::size_t bytesOfDiagram(const authoring::Scene& scene, const gpu::Parameters& parameters,
                            const Buffers& buffers) {
     const DiagramOptions options = diagramOptions(scene, parameters, buffers);
+    const std::size_t whole = std::size_t{options.width} * options.height * gl::kWord;
+    const std::size_t squares = std::size_t{pagesAcross(options.width)} * pagesAcross(options.height);
     const std::vector<gpu::DiagramSite> walls = wallSites(scene, parameters);
-    const FixedSquares squares(options.width, options.height, walls);
-    const std::size_t of_walls = walls.empty() ? 0 : SparseLayers::bytes(squares);
+    std::size_t pages_of_walls = 1, of_walls = 0;
+    if (!walls.empty()) {
+        const FixedSquares found(options.width, options.height, walls);
+        pages_of_walls = found.squares.size();
+        if (options.method == DiagramMethod::binned) of_walls = SparseLayers::bytes(found);
+    }
     if (options.bands.bin_lines > 0)
         return std::size_t{options.width} * options.bands.lines(options.look) * gl::kWord + of_walls;
     if (!options.paged) {
-        const std::size_t whole = std::size_t{options.width} * options.height * gl::kWord;
-        const std::size_t per_site =
-            mayBuildPerSite(scene, parameters, options) ? (walls.empty() ? 1 : 3) : 0;
-        return whole * (1 + per_site) + of_walls;
+        const std::size_t layers = walls.empty() ? 1 : 3;
+        return whole * (mayBuildPerSite(scene, parameters, options) ? 1 + layers : 1) + of_walls;
     }
     const std::uint64_t pages =
-        Pages::pagesNeeded(options.width, options.height, options.largest_radius, options.live_capacity);
-    const std::uint64_t kept =
-        std::min<std::uint64_t>(squares.places.size() + 1, pages + squares.squares.size());
-    return kept * FixedSquares::kPixels * gl::kWord + 2 * squares.places.size() * gl::kWord + of_walls;
+        Pages::pagesNeeded(options.width, options.height, options.largest_radius, options.live_capacity) +
+        pages_of_walls;
+    const std::size_t tables = (of_walls > 0 ? 1 : 2) * squares * gl::kWord;  // the walls' have one of these
+    return std::min<std::uint64_t>(squares + 1, pages) * kPagePixels * gl::kWord + tables + of_walls;
 }
 
 /// What routes that lead round jams keep (sim/congestion.cpp).
@@ -76,6 +80,7 @@ MemoryNeeded memoryNeeded(const authoring::Scene& scene) {
     MemoryNeeded needed;
     const gl::BufferCount count;
     const Buffers buffers(scene, parameters);
+    // Counted like the buffers, and used for nothing else.
     const std::optional<TerrainSlopes> slopes = TerrainSlopes::of(scene);
     for (const gl::BufferCount::Counted& buffer : count.buffers())
         (isOfPeople(buffer) ? needed.people : needed.scene) += buffer.bytes;

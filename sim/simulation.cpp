@@ -178,15 +178,18 @@ bool Simulation::diagramIsPaged() const {
 std::vector<std::pair<std::string, double>> Simulation::profile(int steps) {
     using Milliseconds = std::chrono::duration<double, std::milli>;
     std::vector<std::pair<std::string, double>> times;
-    for (const Pass& pass : parts_->passes)
-        times.emplace_back(pass.name, 0.0);
+    const auto time_of = [&](const std::string& name) -> double& {
+        auto known = std::ranges::find(times, name, &std::pair<std::string, double>::first);
+        if (known == times.end()) known = times.insert(known, {name, 0.0});
+        return known->second;
+    };
     for (int i = 0; i < steps; ++i) {
         parts_->beginStep();
-        for (std::size_t pass = 0; pass < times.size(); ++pass) {
+        for (const Pass& pass : parts_->passes) {
             const auto start = std::chrono::steady_clock::now();
-            parts_->passes[pass].run();
+            pass.run();
             glFinish();
-            times[pass].second += Milliseconds(std::chrono::steady_clock::now() - start).count() / steps;
+            time_of(pass.name) += Milliseconds(std::chrono::steady_clock::now() - start).count() / steps;
         }
     }
     return times;

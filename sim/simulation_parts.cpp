@@ -29,10 +29,12 @@ SensingOptions sensingFor(const authoring::Scene& scene, const gpu::Parameters& 
     return options;
 }
 
+constexpr double kMostWholePixels = 33'554'432.0;  // 128 MiB: what every device's storage blocks hold
+
 /// Pages where neither one buffer or texture can hold the window nor bands of it do, and where most of a
 /// large window is empty: then clearing and gathering only what exists makes up for looking up where it is.
-bool isBestPaged(const DiagramOptions& options, std::size_t wall_sites) {
-    constexpr double kMostWholePixels = 33'554'432.0;  // 128 MiB: what every device's storage blocks hold
+bool isBestPaged(const DiagramOptions& options, const authoring::Scene& scene,
+                 const gpu::Parameters& parameters) {
     constexpr std::uint32_t kMostWholeSide = 16'384;
     constexpr double kWorthwhilePixels = 4'194'304.0;
     const double pixels = static_cast<double>(options.width) * options.height;
@@ -40,15 +42,18 @@ bool isBestPaged(const DiagramOptions& options, std::size_t wall_sites) {
     if (!in_bands && (pixels > kMostWholePixels || std::max(options.width, options.height) > kMostWholeSide))
         return true;
     if (pixels < kWorthwhilePixels || options.method != DiagramMethod::binned) return false;
-    const double paged_pixels =
-        static_cast<double>(Pages::pagesNeeded(options.width, options.height, options.largest_radius,
-                                               options.live_capacity + wall_sites)) *
-        gpu::PAGE_SIDE * gpu::PAGE_SIDE;
-    return paged_pixels < 0.25 * pixels;
+    const std::uint64_t most =
+        Pages::pagesNeeded(options.width, options.height, options.largest_radius, options.live_capacity);
+    const auto is_little = [&](std::uint64_t pages) {
+        return static_cast<double>(pages * kPagePixels) < 0.25 * pixels;
+    };
+    if (scene.wall_tiles.empty() || !is_little(most)) return is_little(most);
+    const FixedSquares walls(options.width, options.height, wallSites(scene, parameters));
+    return is_little(most + walls.squares.size());
 }
 
 /// A diagram of a large crowd takes nearly as much room as the crowd: a fifth of it at a time is enough.
-/// Small ones do without, as there each band takes two launches more than it saves in room.
+/// Small ones do without: there is little to save, and each band takes two launches more.
 BandShape bandsFor(const DiagramOptions& options, const gpu::Parameters& parameters) {
     constexpr double kWorthwhilePixels = 1'048'576.0, kMostKeptPixels = 16'777'216.0;
     constexpr double kShare = 0.2, kMostShare = 0.6;
@@ -60,7 +65,7 @@ BandShape bandsFor(const DiagramOptions& options, const gpu::Parameters& paramet
     const double lines = std::min(kShare * options.height, kMostKeptPixels / options.width);
     shape.bin_lines = std::max(1u, static_cast<std::uint32_t>(std::round(lines / double{shape.bin_side})));
     const double kept = static_cast<double>(shape.lines(options.look)) * options.width;
-    return kept < kMostShare * pixels ? shape : BandShape{};
+    return kept < std::min(kMostShare * pixels, kMostWholePixels) ? shape : BandShape{};
 }
 
 /// How far people look at the diagram, px: as far as their rays go, and themselves.
@@ -104,7 +109,7 @@ DiagramOptions diagramOptions(const authoring::Scene& scene, const gpu::Paramete
     options.look = lookOf(scene, parameters);
     options.vehicles = vehiclesOf(scene, parameters, buffers);
     options.bands = bandsFor(options, parameters);
-    options.paged = isBestPaged(options, scene.wall_tiles.size());
+    options.paged = isBestPaged(options, scene, parameters);
     if (options.paged) options.bands = {};
     return options;
 }
@@ -177,7 +182,10 @@ Simulation::Parts::Parts(const authoring::Scene& scene, const gl::ShaderLibrary&
                             {parameters.cells_width, parameters.cells_height});
     diagram.connect({&buffers.sites, &buffers.live_dispatch, &buffers.site_slots,
                      DiagramInput::Sorted{&buffers.strip_starts, &buffers.cell_offsets, cell_grid}});
-    if (diagram.bands()) costs = costs.only(DiagramMethod::binned);
+    if (diagram.bands()) {
+        const bool is_known = !costs.only(DiagramMethod::binned).costs.empty();
+        costs = (is_known ? costs : CostModel::builtIn()).only(DiagramMethod::binned);
+    }
     load = diagramLoad(scene, parameters);
     passes = passesOfStep();
     for (const gpu::Platform& platform : scene.traffic.platforms)

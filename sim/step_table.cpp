@@ -75,8 +75,10 @@ std::vector<StepPass> tabulateStep(Simulation& simulation) {
     gl::Journal journal;
     noteSteps(simulation, journal, kSteps);
     std::vector<StepPass> table = {{kGates, {}}};
+    // Some come more than once in a step: one list of rows has all of them.
     for (const Pass& pass : parts.passes)
-        table.push_back({pass.name, {}});
+        if (std::ranges::none_of(table, [&](const StepPass& known) { return known.name == pass.name; }))
+            table.push_back({pass.name, {}});
     for (StepPass& pass : table)
         for (const gl::Command& command : journal.commands())
             if (command.pass == pass.name) count(pass.rows, command);

@@ -31,8 +31,8 @@ struct StepPass {
 /// first.
 void noteSteps(Simulation& simulation, gl::Journal& journal, int steps);
 
-/// The step pass by pass, what the CPU uploads for gates first: from what the programs declare, and from the
-/// launches of a few more steps of `simulation`.
+/// The step pass by pass, in the order in which they first come, what the CPU uploads for gates first: from
+/// what the programs declare, and from the launches of a few more steps of `simulation`.
 std::vector<StepPass> tabulateStep(Simulation& simulation);
 
 }  // namespace throng::sim

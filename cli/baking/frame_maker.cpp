@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/baking/frame_maker.h"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -57,7 +58,7 @@ bool FrameMaker::makeFrame(std::uint32_t frame) {
     for (std::uint32_t step = 0; frame > 0 && step < substeps_; ++step)
         if (!simulation_.step()) return false;
     if (!pump_.submit(frame, diagrams_.every > 0 && frame % diagrams_.every == 0)) return false;
-    simulation_.adaptTo(walking_, pixels_looked_at_);
+    if (has_received_) simulation_.adaptTo(walking_, walking_ * looked_at_by_each_);
     return true;
 }
 
@@ -73,7 +74,7 @@ void FrameMaker::countLookedAt(const Frame& frame) {
     looked_at_->begin();
     for (std::size_t at = 0; at < states.size(); at += kComponents)
         if (states[at] > 0.5f) looked_at_->add({places[at], places[at + 1]});
-    pixels_looked_at_ = looked_at_->pixels();
+    looked_at_by_each_ = looked_at_->pixels() / std::max(walking_.load(), 1u);
 }
 
 void FrameMaker::receive(const Frame& frame) {
@@ -82,7 +83,8 @@ void FrameMaker::receive(const Frame& frame) {
     for (std::size_t at = 0; at < states.size(); at += kComponents)
         alive += states[at] > 0.5f;
     walking_ = alive;
-    if (looked_at_ && frame.index % kFramesBetweenCounts == 0) countLookedAt(frame);
+    if (looked_at_ && (!has_received_ || frame.index % kFramesBetweenCounts == 0)) countLookedAt(frame);
+    has_received_ = true;
     if (empty_ && !empty_->take(frame)) return;
     simulated_(frame);
     recorder_.take(frame);

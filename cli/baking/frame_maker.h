@@ -70,8 +70,9 @@ class FrameMaker {
     std::uint32_t seated_, warmup_, substeps_;
     recording::MotionRecorder recorder_;
     std::atomic<std::uint32_t> walking_{0};
+    std::atomic<bool> has_received_{false};
     std::optional<sim::LookedAtCount> looked_at_;
-    std::atomic<double> pixels_looked_at_{0.0};
+    std::atomic<double> looked_at_by_each_{0.0};  // px
     std::unique_ptr<EmptyWatch> empty_;
     sim::FramePump pump_;  // last: its thread uses the others
 };

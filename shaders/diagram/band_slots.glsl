@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which slots this dispatch is for: all, or with BANDED those of one band (shaders/diagram/bands.comp). Needs the block
-// LiveDispatch, or with BANDED none.
+// Which slots this dispatch is for: all, or with BANDED those of one band (shaders/diagram/bands.comp).
 #ifdef BANDED
 layout(std430) readonly buffer Bands { Band bands[]; };
 uniform uint band;
+#else
+layout(std430) readonly buffer LiveDispatch { uint live_groups[3]; uint live_count; };
 #endif
 
 /// @returns false where this invocation has none

@@ -3,7 +3,6 @@
 #include "shaders/shared/simulation_types.h"
 
 layout(local_size_x = 1) in;
-layout(std430) readonly buffer LiveDispatch { uint live_groups[3]; uint live_count; };
 layout(std430) writeonly buffer Bands { Band bands[]; };
 uniform uvec2 cells_across;
 uniform uint lines_per_band;  // of cells
@@ -14,7 +13,6 @@ void main() {
     uint band = gl_WorkGroupID.x;
     uint line = band * lines_per_band;
     uint first = cellStart(line * cells_across.x);
-    bool is_last = line + lines_per_band >= cells_across.y;
-    uint end = is_last ? live_count : cellStart((line + lines_per_band) * cells_across.x);
+    uint end = cellStart(min(line + lines_per_band, cells_across.y) * cells_across.x);
     bands[band] = Band((end - first + AGENT_GROUP_SIZE - 1u) / AGENT_GROUP_SIZE, 1u, 1u, first, end);
 }

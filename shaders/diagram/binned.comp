@@ -120,7 +120,7 @@ void offerFixed(uvec2 corner) {
         for (uint x = 0u; x < BLOCK_WIDTH; ++x) {
             uvec2 fixed_site = texelFetch(fixed_layers, int(first + y * PAGE_SIDE + x)).xy;
             uint pixel = y * BLOCK_WIDTH + x;
-            // Where there is none, the distance is no number, and not below any.
+            // Where there is none, the distance is not below any.
             bool wins = uintBitsToFloat(fixed_site.y) < nearest[pixel];
             nearest_id[pixel] = wins ? fixed_site.x : nearest_id[pixel];
         }

@@ -4,9 +4,6 @@
 #include "shaders/shared/simulation_types.h"
 
 layout(local_size_x = AGENT_GROUP_SIZE) in;
-#ifndef BANDED
-layout(std430) readonly buffer LiveDispatch { uint live_groups[3]; uint live_count; };
-#endif
 layout(std430) readonly buffer Sites { DiagramSite sites[]; };
 layout(std430) writeonly buffer PixelCounts { uint pixel_counts[]; };
 uniform vec2 diagram_size;  // whole pixels

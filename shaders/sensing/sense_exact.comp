@@ -5,6 +5,7 @@
 #include "shaders/shared/simulation_types.h"
 
 #include "shaders/sensing/neighbour_list.glsl"
+layout(std430) readonly buffer LiveDispatch { uint live_groups[3]; uint live_count; };
 #include "shaders/charts/slot_images.glsl"
 
 #ifdef TRAFFIC

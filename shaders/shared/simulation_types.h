@@ -178,7 +178,6 @@ struct DiagramSite {
     uint id;  // agents: the slot, or for pictures the row; wall tiles: the number of rows + the tile's index
 };
 
-/// What a person asks for when it wants to enter.
 /// The part of a diagram's work that is done while one band of it is kept (sim/diagram/bands.h): a dispatch over the
 /// sites whose places are in it, which stand together, and which those are.
 struct Band {
@@ -189,6 +188,7 @@ struct Band {
     uint end_slot;
 };
 
+/// What a person asks for when it wants to enter.
 struct SpawnProposal {
     vec2 position;
     float radius;

@@ -10,7 +10,7 @@
 
 namespace throng::sim {
 
-/// Neighbour keys of every row, nearest first, for the present positions.
+/// Neighbour keys of every row, nearest first, for the present positions; without those whom walls hide.
 std::vector<std::vector<std::uint32_t>> senseNow(Simulation& simulation);
 
 /// One crowd, one way to find neighbours.

@@ -9,7 +9,7 @@ namespace throng::sim {
 namespace {
 
 const gl::Declaration kFindSlots = {
-    "diagram", {"shaders/diagram/bands.comp"}, {"LiveDispatch", "StripStarts", "CellOffsets"}, {"Bands"}};
+    "diagram", {"shaders/diagram/bands.comp"}, {"StripStarts", "CellOffsets"}, {"Bands"}};
 
 /// px beyond what somebody looks at: makes up for rounding.
 constexpr float kSpare = 2.0f;
@@ -28,11 +28,14 @@ std::uint32_t BandShape::lines(float look) const {
 }
 
 Bands::Bands(const gl::ShaderLibrary& library, const DiagramOptions& options, const DiagramInput& input)
-    : options_(options),
+    : shape_(options.bands),
+      height_(options.height),
+      look_(options.look),
       count_((gridOf(input).height + options.bands.bin_lines - 1) / options.bands.bin_lines),
       bands_("bands of the diagram", {count_, sizeof(gpu::Band), "band"}),
       find_(library, kFindSlots) {
-    find_.bind("LiveDispatch", *input.live_dispatch);
+    if (shape_.bin_side != gridOf(input).side)
+        throw std::logic_error("bands are lines of other bins than sites are sorted by");
     find_.bind("StripStarts", *input.sorted->strip_starts);
     find_.bind("CellOffsets", *input.sorted->starts);
     find_.bind("Bands", bands_);
@@ -41,9 +44,9 @@ Bands::Bands(const gl::ShaderLibrary& library, const DiagramOptions& options, co
 }
 
 glm::uvec2 Bands::lines(std::uint32_t band) const {
-    const auto height = static_cast<float>(options_.height);
-    const float beyond = std::ceil(options_.look) + kSpare;
-    const float side = static_cast<float>(options_.bands.bin_lines) * options_.bands.bin_side;
+    const auto height = static_cast<float>(height_);
+    const float beyond = std::ceil(look_) + kSpare;
+    const float side = static_cast<float>(shape_.bin_lines) * shape_.bin_side;
     const auto at = [&](std::uint32_t end) { return static_cast<float>(end) * side; };
     const auto first = static_cast<std::uint32_t>(std::clamp(at(band) - beyond, 0.0f, height - 1.0f));
     // Who stands beyond the last line looks at it all the same.
@@ -53,6 +56,7 @@ glm::uvec2 Bands::lines(std::uint32_t band) const {
 }
 
 void Bands::dispatch(gl::ComputeProgram& program, std::uint32_t band) const {
+    program.bind("Bands", bands_);
     program.set("band", band);
     program.dispatchIndirect(bands_, std::size_t{band} * sizeof(gpu::Band));
 }

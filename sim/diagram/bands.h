@@ -28,11 +28,11 @@ class Bands {
     void findSlots() const { find_.dispatch(count_); }
     /// Runs a program with shaders/diagram/band_slots.glsl over those who stand in a band.
     void dispatch(gl::ComputeProgram& program, std::uint32_t band) const;
-    /// Makes a program's BANDED blocks known.
-    void describeTo(gl::Program& program) const { program.bind("Bands", bands_); }
 
   private:
-    DiagramOptions options_;
+    BandShape shape_;
+    std::uint32_t height_;  // px, of the window
+    float look_;            // px
     std::uint32_t count_;
     gl::Buffer bands_;
     gl::ComputeProgram find_;

@@ -8,7 +8,7 @@
 namespace throng::sim {
 namespace {
 
-constexpr std::size_t kPageBytes = std::size_t{4} * gpu::PAGE_SIDE * gpu::PAGE_SIDE;
+constexpr std::size_t kPageBytes = gl::kWord * kPagePixels;
 
 const gl::Declaration kCountGroups = {
     "diagram", {"shaders/diagram/page_dispatch.comp"}, {"PageCount"}, {"PageDispatch"}};
@@ -54,20 +54,25 @@ void BinnedDiagram::setUpPages(const DiagramSetup& setup) {
     gather_.set("pages_per_line", pages_->perLine());
 }
 
+/// At most, in the window or in one band of it.
+std::size_t BinnedDiagram::pagesListed() const {
+    const bool in_bands = options_.bands.bin_lines > 0;
+    const std::uint32_t lines = in_bands ? options_.bands.lines(options_.look) : options_.height;
+    return std::size_t{pagesAcross(options_.width)} * (pagesAcross(lines) + 1);
+}
+
 bool BinnedDiagram::canBuildNear() const {
-    const std::uint64_t pages =
-        blocksAcross(options_.width, gpu::PAGE_SIDE) * blocksAcross(options_.height, gpu::PAGE_SIDE);
     constexpr std::uint64_t kMostGroups = 65535;  // on one axis
-    return options_.look > 0.0f && pages <= kMostGroups * pagesPerGroup(options_.gather);
+    return options_.look > 0.0f && pagesListed() <= kMostGroups * pagesPerGroup(options_.gather);
 }
 
 void BinnedDiagram::setUpNear() {
-    const auto across = static_cast<std::uint32_t>(blocksAcross(options_.width, gpu::PAGE_SIDE));
-    const std::size_t pages = across * blocksAcross(options_.height, gpu::PAGE_SIDE);
+    const std::uint32_t across = pagesAcross(options_.width);
+    const std::size_t pages = std::size_t{across} * pagesAcross(options_.height);
     near_.emplace();
     near_->stamps = gl::Buffer("diagram pages, last listed", {pages, 4, "page of the window"});
     near_->stamps.fill(0);
-    near_->list = gl::Buffer("diagram pages looked at", {pages, 4, "page of the window"});
+    near_->list = gl::Buffer("diagram pages looked at", {pagesListed(), 4, "page of the window"});
     near_->count = gl::Buffer("diagram pages looked at, count", 16);
     near_->none = gl::makeBuffer("no diagram pages", std::vector<std::uint32_t>{0, 1, 1, 0});
     near_->list_pages = gl::ComputeProgram(
@@ -137,7 +142,9 @@ void BinnedDiagram::build(Extent extent) {
     if (pages_) {
         buildPages(extent);
     } else if (extent == Extent::near_people && canBuildNear()) {
-        buildNear([this] { near_->list_pages.dispatchIndirect(*input_.live_dispatch); });
+        beginNear();
+        near_->list_pages.dispatchIndirect(*input_.live_dispatch);
+        near_->gather.dispatchIndirect(near_->count);
     } else {
         gather_.dispatch(blocks(options_.height));
     }
@@ -146,25 +153,21 @@ void BinnedDiagram::build(Extent extent) {
 void BinnedDiagram::buildBand(const Bands& bands, std::uint32_t band, Extent extent) {
     const glm::uvec2 lines = bands.lines(band);
     if (extent == Extent::near_people && canBuildNear()) {
-        buildNear([&] {
-            near_->gather.set("lines", lines);
-            bands.describeTo(near_->list_pages);
-            bands.dispatch(near_->list_pages, band);
-        });
+        beginNear();
+        bands.dispatch(near_->list_pages, band);
+        near_->gather.set("lines", lines);
+        near_->gather.dispatchIndirect(near_->count);
     } else {
         gather_.set("lines", lines);
         gather_.dispatch(blocks(lines.y - lines.x));
     }
 }
 
-/// @param list runs the program that lists the pages
-template <class List>
-void BinnedDiagram::buildNear(List list) {
+/// The list of pages is empty then.
+void BinnedDiagram::beginNear() {
     if (!near_) setUpNear();
     near_->count.copyFrom(near_->none);
     near_->list_pages.set("stamp", ++near_->stamp);
-    list();
-    near_->gather.dispatchIndirect(near_->count);
 }
 
 void BinnedDiagram::buildPages(Extent extent) {

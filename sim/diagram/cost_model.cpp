@@ -5,6 +5,8 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "sim/diagram/page_size.h"
+
 namespace throng::sim {
 
 namespace {
@@ -27,7 +29,6 @@ double pagesLookedAt(double look) {
 }  // namespace
 
 DiagramLoad DiagramLoad::nearPeople(double look) const {
-    constexpr double kPagePixels = double{gpu::PAGE_SIDE} * gpu::PAGE_SIDE;
     DiagramLoad near = *this;
     near.pixels = std::min(pixels, sites * pagesLookedAt(look) * kPagePixels);
     if (looked_at > 0.0) near.pixels = std::min(near.pixels, looked_at);

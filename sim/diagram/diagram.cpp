@@ -82,6 +82,8 @@ Diagram::Diagram(const gl::ShaderLibrary& library, const DiagramOptions& options
       fixed_sites_(fixed_sites.begin(), fixed_sites.end()),
       long_work_(std::make_unique<LongWork>()),
       extras_(std::make_unique<Extras>()) {
+    if (options_.bands.bin_lines > 0 && (options_.paged || options_.vehicles))
+        throw std::logic_error("a diagram in bands has neither pages nor vehicles");
     if (options_.paged) {
         if (options_.method != DiagramMethod::binned)
             throw gl::GraphicsError(fmt::format(
@@ -109,9 +111,11 @@ Diagram& Diagram::operator=(Diagram&&) noexcept = default;
 
 /// Pages stand where fixed sites may ever be: which are there now changes what is in their layers.
 std::unique_ptr<SparseLayers> Diagram::makeSparseLayers() const {
-    if (pages_) return std::make_unique<SparseLayers>(library_, options_, pages_->fixed(), fixed_sites_);
+    if (pages_)
+        return std::make_unique<SparseLayers>(library_, options_, pages_->fixed(), &pages_->fixedTable(),
+                                              fixed_sites_);
     const FixedSquares squares(options_.width, options_.height, fixed_sites_);
-    return std::make_unique<SparseLayers>(library_, options_, squares, fixed_sites_);
+    return std::make_unique<SparseLayers>(library_, options_, squares, nullptr, fixed_sites_);
 }
 
 std::unique_ptr<Diagram::Implementation> Diagram::make() {
@@ -195,6 +199,7 @@ void Diagram::Implementation::buildBand(const Bands&, std::uint32_t, Extent) {
 
 bool Diagram::build(Extent extent) {
     if (bands_) bands_->findSlots();
+    extent_ = extent;
     if (extras_->whole) extras_->whole->known = false;
     long_work_->stopped = false;
     current_->build(extent);
@@ -203,6 +208,7 @@ bool Diagram::build(Extent extent) {
 }
 
 void Diagram::buildBand(std::uint32_t band, Extent extent) {
+    if (!bands_) throw std::logic_error("this diagram is not in bands, or not connected");
     current_->buildBand(*bands_, band, extent);
 }
 
@@ -219,7 +225,6 @@ void Diagram::describeTo(gl::Program& program) const {
 
 void Diagram::lookUpInBand(gl::ComputeProgram& program, std::uint32_t band) const {
     program.set("first_line", bands_->lines(band).x);
-    bands_->describeTo(program);
     bands_->dispatch(program, band);
 }
 
@@ -322,7 +327,7 @@ const gl::Buffer& Diagram::countPixels() {
     extras_->counts->counts.fill(0);
     if (!bands_) extras_->counts->count.dispatchIndirect(*input_.live_dispatch);
     for (std::uint32_t band = 0; bands_ && band < bands_->count(); ++band) {
-        buildBand(band);
+        buildBand(band, extent_);
         lookUpInBand(extras_->counts->count, band);
     }
     return extras_->counts->counts;

@@ -133,8 +133,9 @@ class Diagram {
     }
     bool paged() const { return options_.paged; }
 
-    /// What may be asked of a built diagram; each call works from the owners as they are.
-    /// The owners as one picture, whether paged or in bands or not.
+    /// What may be asked of a built diagram; each call works from the owners as they are. Of one in bands,
+    /// from the sites as they are: ask before they are sorted anew. The owners as one picture, whether paged
+    /// or in bands or not.
     const gl::Buffer& wholeOwners();
     /// Squared distances to the owners, float, px^2; infinite where there is no owner.
     const gl::Buffer& measureDistances();
@@ -168,6 +169,7 @@ class Diagram {
     std::unique_ptr<LongWork> long_work_;
     std::unique_ptr<Pages> pages_;
     std::unique_ptr<Bands> bands_;
+    Extent extent_ = Extent::everywhere;  // of the last build
     std::unique_ptr<FixedLayers> fixed_layers_;
     std::unique_ptr<SparseLayers> sparse_layers_;
     std::optional<VehicleCells> vehicle_cells_;

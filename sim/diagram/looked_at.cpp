@@ -3,15 +3,15 @@
 
 #include <algorithm>
 
-#include "sim/diagram/fixed_squares.h"
+#include "sim/diagram/page_size.h"
 
 namespace throng::sim {
 
 LookedAtCount::LookedAtCount(const gpu::Parameters& parameters, double look)
     : parameters_(parameters),
       look_(look),
-      per_line_(FixedSquares::across(parameters.diagram_width)),
-      stamps_(std::size_t{per_line_} * FixedSquares::across(parameters.diagram_height)) {}
+      per_line_(pagesAcross(parameters.diagram_width)),
+      stamps_(std::size_t{per_line_} * pagesAcross(parameters.diagram_height)) {}
 
 void LookedAtCount::begin() {
     ++stamp_;
@@ -36,7 +36,7 @@ void LookedAtCount::add(glm::vec2 place) {
 }
 
 double LookedAtCount::pixels() const {
-    return static_cast<double>(pages_) * FixedSquares::kPixels;
+    return static_cast<double>(pages_) * kPagePixels;
 }
 
 }  // namespace throng::sim

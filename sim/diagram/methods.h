@@ -80,13 +80,13 @@ class BinnedDiagram final : public Diagram::Implementation {
 
   private:
     void setUpPages(const DiagramSetup& setup);
+    std::size_t pagesListed() const;
     bool canBuildNear() const;
     void setUpNear();
     void connectNear();
     void connectGather(gl::ComputeProgram& gather);
     void buildPages(Extent extent);
-    template <class List>
-    void buildNear(List list);
+    void beginNear();
     std::uint64_t blocks(std::uint32_t lines) const;
 
     gl::ShaderLibrary library_;

@@ -23,19 +23,6 @@ const gl::Declaration kCoverVehicles = {
     "diagram", {"shaders/diagram/vehicle_tiles.comp"}, {"VehicleBoxes"}, {"VehicleTiles"}};
 constexpr float kNobodyLooks = -1.0f;
 
-/// The table, too, has to fit a storage block.
-FixedSquares checkedSquares(std::uint32_t width, std::uint32_t height,
-                            std::span<const gpu::DiagramSite> fixed_sites) {
-    constexpr std::size_t kMostSquares = std::size_t{1} << 25;
-    const std::size_t squares = std::size_t{FixedSquares::across(width)} * FixedSquares::across(height);
-    if (squares > kMostSquares)
-        throw gl::GraphicsError(fmt::format(
-            "the diagram of {} x {} pixels is too large even in pages. Set "
-            "simulation.pixels_per_metre to at most {:.2g} times what it is, or split the layout.",
-            width, height, std::sqrt(static_cast<double>(kMostSquares) / static_cast<double>(squares))));
-    return {width, height, fixed_sites};
-}
-
 }  // namespace
 
 std::uint64_t Pages::pagesNeeded(std::uint32_t width, std::uint32_t height, float largest_radius,
@@ -44,14 +31,14 @@ std::uint64_t Pages::pagesNeeded(std::uint32_t width, std::uint32_t height, floa
     // at most 2 r + 2 pixels wide.
     const double across = std::ceil((2.0 * largest_radius + 1.0) / gpu::PAGE_SIDE) + 1.0;
     const double by_sites = static_cast<double>(sites) * across * across;
-    const double all = static_cast<double>(FixedSquares::across(width)) * FixedSquares::across(height);
+    const double all = static_cast<double>(pagesAcross(width)) * pagesAcross(height);
     return static_cast<std::uint64_t>(std::min(by_sites, all)) + 1;
 }
 
 Pages::Pages(const gl::ShaderLibrary& library, std::uint32_t width, std::uint32_t height,
              float largest_radius, float look, std::uint32_t live_capacity,
              std::span<const gpu::DiagramSite> fixed_sites, const VehicleSites* vehicles)
-    : fixed_(checkedSquares(width, height, fixed_sites)),
+    : fixed_(width, height, fixed_sites),
       look_(look),
       table_("diagram page table", {fixed_.places.size(), gl::kWord, "page of the window"}),
       fixed_table_(gl::makeBuffer("diagram page table, fixed sites", fixed_.places, "page of the window")),
@@ -70,21 +57,23 @@ Pages::Pages(const gl::ShaderLibrary& library, std::uint32_t width, std::uint32_
     forget_.bind("PageTable", table_);
     forget_.bind("PageCount", count_);
     table_.fill(0);
+    count_.copyFrom(empty_count_);  // what a build forgets first
 
     const std::uint64_t all = fixed_.places.size() + 1;
+    fixed_.places = {};  // the device has them
     const std::uint64_t under_vehicles = vehicles ? coverVehicles(library, *vehicles, width, height) : 0;
     const std::uint64_t needed =
         std::min(all, fixed_.squares.size() + pagesNeeded(width, height, largest_radius, live_capacity) +
                           under_vehicles);
     constexpr std::uint64_t kMostPages =
-        (std::uint64_t{1} << 27) / FixedSquares::kPixels;  // texels of a buffer texture
+        (std::uint64_t{1} << 27) / kPagePixels;  // texels of a buffer texture
     if (needed > kMostPages)
         throw gl::GraphicsError(fmt::format(
             "the diagram of {} x {} pixels may need {:.0f} million of them where people or walls are, and "
             "the "
             "limit is {:.0f} million. Set simulation.pixels_per_metre lower, or split the layout.",
-            width, height, static_cast<double>(needed * FixedSquares::kPixels) / 1e6,
-            static_cast<double>(kMostPages * FixedSquares::kPixels) / 1e6));
+            width, height, static_cast<double>(needed * kPagePixels) / 1e6,
+            static_cast<double>(kMostPages * kPagePixels) / 1e6));
     capacity_ = static_cast<std::uint32_t>(needed);
     list_ = gl::Buffer("diagram pages", {capacity_, gl::kWord, "page"});
     list_.copyFrom(fixed_list_);
@@ -109,7 +98,7 @@ std::uint64_t Pages::coverVehicles(const gl::ShaderLibrary& library, const Vehic
 }
 
 gl::Room Pages::store() const {
-    return {FixedSquares::kPixels * capacity_, gl::kWord, "pixel"};
+    return {kPagePixels * capacity_, gl::kWord, "pixel"};
 }
 
 void Pages::connect(const gl::Buffer& sites, const gl::Buffer& live_dispatch) {

@@ -46,8 +46,9 @@ class Pages {
 
     std::uint32_t perLine() const { return fixed_.per_line; }
     std::uint32_t capacity() const { return capacity_; }
-    /// Where fixed sites are that the pages were made for.
+    /// Where fixed sites are that the pages were made for: squares by place, and places by square.
     const FixedSquares& fixed() const { return fixed_; }
+    const gl::Buffer& fixedTable() const { return fixed_table_; }
     const gl::Buffer& table() const { return table_; }
     const gl::Buffer& list() const { return list_; }
     const gl::Buffer& count() const { return count_; }

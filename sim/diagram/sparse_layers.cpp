@@ -8,19 +8,23 @@
 namespace throng::sim {
 namespace {
 
+constexpr std::uint32_t kInfinite = 0x7f800000u;  // the bits of a distance that is not below any
 constexpr std::size_t kBytesOfTwo = 2 * gl::kWord;
-constexpr std::size_t kBytesOfLayers = kBytesOfTwo * FixedSquares::kPixels;
+constexpr std::size_t kBytesOfLayers = kBytesOfTwo * kPagePixels;
 
 }  // namespace
 
 SparseLayers::SparseLayers(const gl::ShaderLibrary& library, const DiagramOptions& options,
-                           const FixedSquares& squares, std::span<const gpu::DiagramSite> fixed_sites)
+                           const FixedSquares& squares, const gl::Buffer* places,
+                           std::span<const gpu::DiagramSite> fixed_sites)
     : per_line_(squares.per_line),
-      places_(gl::makeBuffer("squares with fixed sites", squares.places, "page of the window")),
+      own_places_(places ? gl::Buffer()
+                         : gl::makeBuffer("squares with fixed sites", squares.places, "page of the window")),
+      places_(places),
       layers_("diagram of fixed sites",
-              {squares.squares.size() * FixedSquares::kPixels, kBytesOfTwo, "pixel near a fixed site"},
+              {squares.squares.size() * kPagePixels, kBytesOfTwo, "pixel near a fixed site"},
               gl::Buffer::Use::in_ranges) {
-    layers_.fill(gpu::NO_INDEX);  // as a distance, no number
+    layers_.fill(kInfinite);
     texture_ = gl::WordTexture(layers_, gl::WordTexture::Texel::two_words);
     if (squares.squares.size() > 1) work(library, options, squares, fixed_sites);
 }
@@ -55,7 +59,7 @@ void SparseLayers::work(const gl::ShaderLibrary& library, const DiagramOptions& 
 }
 
 void SparseLayers::describeTo(gl::Program& gather) const {
-    gather.bind("FixedPlaces", places_);
+    gather.bind("FixedPlaces", places_ ? *places_ : own_places_);
     gather.bind("fixed_layers", texture_);
     gather.set("pages_per_line", per_line_);
 }

@@ -15,13 +15,14 @@ namespace throng::sim {
 /// of a world has no room for walls to take.
 class SparseLayers {
   public:
+    /// @param places the squares' places on the device, which outlive this; null: there are none yet
     SparseLayers(const gl::ShaderLibrary& library, const DiagramOptions& options, const FixedSquares& squares,
-                 std::span<const gpu::DiagramSite> fixed_sites);
+                 const gl::Buffer* places, std::span<const gpu::DiagramSite> fixed_sites);
 
     /// What shaders/diagram/binned.comp asks for where it has FIXED_LAYERS.
     void describeTo(gl::Program& gather) const;
 
-    /// Bytes for a window with so many places.
+    /// Bytes on the device, those of places among them.
     static std::size_t bytes(const FixedSquares& squares);
 
   private:
@@ -29,8 +30,9 @@ class SparseLayers {
               std::span<const gpu::DiagramSite> fixed_sites);
 
     std::uint32_t per_line_;
-    gl::Buffer places_;
-    gl::Buffer layers_;  // per pixel of the store: whose it is, and the squared distance as bits
+    gl::Buffer own_places_;
+    const gl::Buffer* places_;  // null: its own
+    gl::Buffer layers_;         // per pixel of the store: whose it is, and the squared distance as bits
     gl::WordTexture texture_;
 };
 

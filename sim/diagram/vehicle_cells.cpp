@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/diagram/page_size.h"
+
 namespace throng::sim {
 namespace {
 
@@ -14,7 +16,7 @@ const gl::Declaration kVehicleCells = {"diagram",
                                        {"Sites", "SiteSlots", "VehicleBoxes", "Owners", "page_table"},
                                        {"Owners"}};
 
-constexpr std::size_t kBytesOfPage = std::size_t{4} * gpu::PAGE_SIDE * gpu::PAGE_SIDE;
+constexpr std::size_t kBytesOfPage = gl::kWord * kPagePixels;
 
 std::size_t mostPagesShown() {
     GLint64 bytes = 0;

@@ -7,8 +7,11 @@
 
 #include "sim/diagram/bands.h"
 #include "sim/diagram/fixed_squares.h"
+#include "sim/simulation_parts.h"
 #include "tests/sim/diagrams.h"
 #include "tests/sim/gpu_test.h"
+#include "tests/sim/layout_scene.h"
+#include "tests/sim/scenes.h"
 
 namespace throng::test {
 namespace {
@@ -138,6 +141,68 @@ TEST_F(DiagramBandsTest, NeedSitesThatComeSortedAndOneMethod) {
     input.sorted.reset();
     EXPECT_THROW(diagram.connect(input), std::logic_error);
     EXPECT_THROW(diagram.use(authoring::DiagramMethod::per_site), std::logic_error);
+}
+
+class BandedCrowdTest : public GpuTest {
+  protected:
+    /// What a frame shows after some steps, half of which another simulation does, and how dense it is half
+    /// way.
+    std::vector<float> moved(const authoring::Scene& scene, int steps) {
+        sim::Simulation first(scene, library);
+        for (int step = 0; step < steps / 2; ++step)
+            first.step();
+        sim::Simulation second(scene, library);
+        second.restore(first.save());
+        for (int step = steps / 2; step < steps; ++step)
+            second.step();
+        std::vector<float> all = frameOf(second);
+        const std::vector<float> counted = densityOf(first);
+        all.insert(all.end(), counted.begin(), counted.end());
+        return all;
+    }
+
+    static std::vector<float> frameOf(sim::Simulation& simulation) {
+        const gl::Buffer frame("frame", simulation.frameBytes());
+        simulation.packFrame(frame);
+        return frame.download<float>(simulation.frameBytes() / sizeof(float));
+    }
+
+    static std::vector<float> densityOf(sim::Simulation& simulation) {
+        const std::size_t rows = simulation.parameters().row_count;
+        const gl::Buffer stream("stream", 3 * rows * sizeof(float));
+        simulation.buildDiagramNow(Extent::near_people);
+        simulation.packStream(Stream::density, stream);
+        return stream.download<float>(3 * rows);
+    }
+
+    void expectTheSameInBands(authoring::Scene scene, double pixels_per_metre, int steps) {
+        scene.settings.pixels_per_metre = pixels_per_metre;
+        scene.settings.method = authoring::DiagramMethod::per_site;
+        const std::vector<float> whole = moved(scene, steps);
+        scene.settings.method = authoring::DiagramMethod::automatic;
+        EXPECT_NE(sim::Simulation(scene, library).diagram().bands(), nullptr);
+        EXPECT_EQ(moved(scene, steps), whole);
+    }
+};
+
+TEST_F(BandedCrowdTest, WalksAsInOnePieceOnSeveralLevels) {
+    expectTheSameInBands(sceneOfExample("station-levels"), 10.0, 24);
+}
+
+TEST_F(BandedCrowdTest, WalksAsInOnePieceWhileSomeComeAndOthersGo) {
+    expectTheSameInBands(sceneOfExample("intersection"), 16.0, 48);
+}
+
+TEST_F(BandedCrowdTest, WalksAsInOnePieceBeforeGatesAndWallsThatHide) {
+    authoring::Scene scene = uniformScene(1234, 1.1f, 41);
+    addWall(scene, {5, 5}, {30, 22});
+    addWall(scene, {5, 25}, {33, 12});
+    for (std::uint32_t segment = 0; segment < scene.wall_segments.size(); ++segment)
+        scene.wall_segments[segment].wall = segment;
+    scene.open_at_start = {0};
+    scene.gate_moves = {{0.1, 0, false}, {0.4, 1, true}, {0.6, 0, true}};
+    scene.hiding_walls = {1};
+    expectTheSameInBands(scene, 28.0, 24);
 }
 
 class FixedSitesTest : public GpuTest {};

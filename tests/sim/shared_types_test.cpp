@@ -229,6 +229,12 @@ std::map<std::string, Layout> layoutsInCpp() {
         result["DiagramSite"] = {sizeof(T), {MEMBER(position), MEMBER(radius), MEMBER(id)}};
     }
     {
+        using T = gpu::Band;
+        result["Band"] = {
+            sizeof(T),
+            {MEMBER(groups_x), MEMBER(groups_y), MEMBER(groups_z), MEMBER(first_slot), MEMBER(end_slot)}};
+    }
+    {
         using T = gpu::SpawnProposal;
         result["SpawnProposal"] = {sizeof(T), {MEMBER(position), MEMBER(radius), MEMBER(row)}};
     }

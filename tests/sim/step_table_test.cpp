@@ -9,8 +9,10 @@
 #include "authoring/layout/layout_reader.h"
 #include "authoring/scene/scene_builder.h"
 #include "base/streams.h"
+#include "sim/diagram/bands.h"
 #include "sim/simulation_parts.h"
 #include "tests/sim/gpu_test.h"
+#include "tests/sim/scenes.h"
 
 namespace throng::test {
 namespace {
@@ -145,6 +147,25 @@ TEST_F(StepTableTest, HoldsForTheOtherWaysToFindNeighbours) {
     }
 }
 
+TEST_F(StepTableTest, HoldsForTheOtherWaysToKeepADiagram) {
+    authoring::Scene pages = scene, bands = scene;
+    pages.maximum = {900, 900};
+    bands.maximum = {60, 60};
+    bands.settings.pixels_per_metre = 16.0;
+    for (const bool in_bands : {false, true}) {
+        const gl::Journal journal;
+        sim::Simulation simulation(in_bands ? bands : pages, library);
+        EXPECT_EQ(simulation.diagramIsPaged(), !in_bands);
+        EXPECT_EQ(simulation.diagram().bands() != nullptr, in_bands);
+        const std::size_t made = journal.commands().size();
+        for (int step = 0; step < 60; ++step)
+            simulation.step();
+        lookAtEverything(simulation);
+        EXPECT_EQ(writtenForNobody(journal.commands(), made), Names{}) << in_bands;
+        EXPECT_EQ(readUnwritten(journal.commands()), Names{}) << in_bands;
+    }
+}
+
 TEST_F(StepTableTest, CountsBytesPerPersonAndLaunches) {
     sim::Simulation simulation(scene, library);
     const std::vector<sim::StepPass> table = sim::tabulateStep(simulation);
@@ -181,6 +202,33 @@ TEST_F(StepTableTest, CallsPassesAsTheirProgramsDo) {
         for (const sim::StepRow& row : table[i + 1].rows)
             EXPECT_TRUE(row.declared.empty() || row.declared == times[i].first) << row.what;
     }
+}
+
+TEST_F(StepTableTest, HasPassesThatComeSeveralTimesOnce) {
+    const auto once = [&](sim::Simulation& simulation) {
+        std::map<std::string, int> names;
+        double of_diagram = 0.0;
+        for (const sim::StepPass& pass : sim::tabulateStep(simulation)) {
+            ++names[pass.name];
+            for (const sim::StepRow& row : pass.rows)
+                if (row.what == "shaders/diagram/binned.comp") of_diagram += row.launches;
+        }
+        for (const auto& [name, count] : names)
+            EXPECT_EQ(count, 1) << name;
+        for (const auto& [name, time] : simulation.profile(1))
+            --names[name];
+        for (const auto& [name, count] : names)
+            EXPECT_EQ(count, name == "gates" ? 1 : 0) << name;
+        return of_diagram;
+    };
+    sim::Simulation whole(scene, library);
+    EXPECT_GT(once(whole), 0.0);
+    authoring::Scene large = uniformScene(1234, 1.1f, 34);
+    large.settings.pixels_per_metre = 28.0;
+    sim::Simulation banded(large, library);
+    ASSERT_NE(banded.diagram().bands(), nullptr);
+    const double per_step = 1.0 / large.settings.stepsPerDecision();
+    EXPECT_DOUBLE_EQ(once(banded), per_step * banded.diagram().bands()->count());
 }
 
 TEST_F(StepTableTest, LeavesOutPassesThatHaveNothingToDo) {
