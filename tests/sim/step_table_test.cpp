@@ -149,7 +149,7 @@ TEST_F(StepTableTest, HoldsForTheOtherWaysToFindNeighbours) {
 
 TEST_F(StepTableTest, HoldsForTheOtherWaysToKeepADiagram) {
     authoring::Scene pages = scene, bands = scene;
-    pages.maximum = {900, 900};
+    pages.maximum = {640, 640};
     bands.maximum = {60, 60};
     bands.settings.pixels_per_metre = 16.0;
     for (const bool in_bands : {false, true}) {
