@@ -32,6 +32,7 @@ TABLES = {
     "seeds": Table("motion-validation.md", 30, motion.seeds),
     "large": Table("motion-validation.md", 45, motion.large),
     "large-ring": Table("motion-validation.md", 100, motion.large_ring),
+    "large-streets": Table("motion-validation.md", 25, motion.large_streets),
     "rooms": Table("motion-validation.md", 12, motion.rooms),
     "door-widths": Table("motion-validation.md", 8, motion.door_widths),
     "headway": Table("motion-validation.md", 3, motion.headway),

@@ -75,15 +75,19 @@ def scenarios(runs):
 
 
 def large(runs):
-    return crowds_of_16384(runs, LARGE)
+    return large_crowds(runs, LARGE)
+
+
+def large_streets(runs):
+    return large_crowds(runs, {"streets-65536": "to the nearest of 40 exits"})
 
 
 def large_ring(runs):
     crowds = {"ring-16384": "on a circle"}
-    return crowds_of_16384(runs, crowds, "simulation.proximity=grid")  # 27 million cells of diagram else
+    return large_crowds(runs, crowds, "simulation.proximity=grid")  # 27 million cells of diagram else
 
 
-def crowds_of_16384(runs, crowds, *settings):
+def large_crowds(runs, crowds, *settings):
     rows = []
     for name, about in crowds.items():
         figures = runs.scenario(name, *settings)
