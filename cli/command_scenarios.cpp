@@ -101,8 +101,9 @@ void addScenarios(CLI::App& app) {
     auto options = std::make_shared<ScenariosOptions>();
     command->add_flag("--list", options->list, "Only name them");
     command
-        ->add_option("--run", options->names,
-                     "Only this one (repeatable); those of 16,384 people run only where they are named")
+        ->add_option(
+            "--run", options->names,
+            "Only this one (repeatable); those of 16,384 people and more run only where they are named")
         ->take_all()
         ->expected(1);
     command->add_option("-o,--output", options->output, "Where layouts and bakes are left")
