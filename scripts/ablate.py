@@ -17,9 +17,10 @@ import pathlib
 import subprocess
 import sys
 import tempfile
-import textwrap
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "scripts" / "figure_tables"))
+from pages import paragraph, table  # noqa: E402
 SCHEMA = ROOT / "authoring" / "layout" / "throng-layout.schema.json"
 
 # What a layout has to have for a rule to have anything to do.
@@ -113,18 +114,15 @@ def tables(rows):
     usual = next(iter(cells.values()))
     same = [name for name, known in cells.items() if known is not usual and
             all(figure(row) == figure(usual[column]) for column, row in known.items() for figure in FIGURES.values())]
-    head = "| | " + " | ".join(f"{name}, seed {seed}" if seeds else name for name, seed in columns) + " |"
-    lines = []
+    head = ["", *(f"{name}, seed {seed}" if seeds else name for name, seed in columns)]
+    parts = []
     for title, figure in FIGURES.items():
-        lines += [f"{title}:", "", head, "| --- |" + " --- |" * len(columns)]
-        for name, known in cells.items():
-            if name not in same:
-                told = (figure(known[column]) if column in known else "" for column in columns)
-                lines.append(f"| {name} | " + " | ".join(told) + " |")
-        lines.append("")
+        told = [[name, *(figure(known[column]) if column in known else "" for column in columns)]
+                for name, known in cells.items() if name not in same]
+        parts.append(f"{title}:\n\n{table(head, told)}")
     if same:
-        lines.append(textwrap.fill(f"The same figures as with all rules: {'; '.join(same)}.", 120))
-    return "\n".join(lines).strip()
+        parts.append(paragraph(f"The same figures as with all rules: {'; '.join(same)}."))
+    return "\n\n".join(parts)
 
 
 def row_of(scenario, seed, name, variant, report):

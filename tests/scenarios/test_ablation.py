@@ -104,7 +104,7 @@ def test_tables_have_rules_downwards_and_scenarios_across_and_name_what_changes_
         row("stream", "without: Nothing", overlapping_percent=0.1481, deepest_overlap_percent=6.44),
         row("stream", "without: Headway", seconds=49)])
     tables = [part.splitlines() for part in told.split("\n\n")]
-    assert tables[1] == ["| | door | stream |", "| --- | --- | --- |", "| all rules | 81 s | 81 s |",
+    assert tables[1] == ["|  | door | stream |", "| --- | --- | --- |", "| all rules | 81 s | 81 s |",
                          "| without: Patience | 94 of 100 | 81 s |", "| without: Headway |  | 49 s |"]
     assert tables[3][2:4] == ["| all rules | 0.88 | 0.88 |", "| without: Patience | 0.88 | 0.12 |"]
     assert tables[5][2] == "| all rules | 0.5 | 6.4 (0.148) |"
@@ -117,4 +117,4 @@ def test_tables_of_several_seeds_have_a_column_for_each():
     rows = [{"scenario": "door", "seed": seed, "variant": "all rules", "agents": 1, "arrived": 1, "seconds": seed,
              "deepest_overlap_percent": 0, "overlapping_percent": 0, "acceleration_p99": 0, "backward_percent": 0}
             for seed in (3, 5)]
-    assert "| | door, seed 3 | door, seed 5 |\n| --- | --- | --- |\n| all rules | 3 s | 5 s |" in module.tables(rows)
+    assert "|  | door, seed 3 | door, seed 5 |\n| --- | --- | --- |\n| all rules | 3 s | 5 s |" in module.tables(rows)
