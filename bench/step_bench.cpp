@@ -60,7 +60,7 @@ class Gradient1 {
     Gradient1(std::uint32_t count, float radius)
         : options_{sim::DiagramMethod::gradient1, 1024, 1024, radius, count, 0, {}, false},
           owners_("owners", 4 * 1024 * 1024),
-          diagram_({gl::ShaderLibrary(), options_, {}, owners_, long_work_, {}, {}}) {
+          diagram_({gl::ShaderLibrary(), options_, {}, owners_, long_work_}) {
         std::mt19937 random(11);
         std::uniform_real_distribution<float> anywhere(0.0f, 1024.0f);
         std::vector<gpu::DiagramSite> sites(count);

@@ -49,7 +49,7 @@ std::size_t bytesOfDiagram(const authoring::Scene& scene, const gpu::Parameters&
         pages_of_walls = found.squares.size();
         if (options.method == DiagramMethod::binned) of_walls = SparseLayers::bytes(found);
     }
-    if (options.bands.bin_lines > 0)
+    if (options.bands.areUsed())
         return std::size_t{options.width} * options.bands.lines(options.look) * gl::kWord + of_walls;
     if (!options.paged) {
         const std::size_t layers = walls.empty() ? 1 : 3;

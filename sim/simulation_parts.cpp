@@ -38,7 +38,7 @@ bool isBestPaged(const DiagramOptions& options, const authoring::Scene& scene,
     constexpr std::uint32_t kMostWholeSide = 16'384;
     constexpr double kWorthwhilePixels = 4'194'304.0;
     const double pixels = static_cast<double>(options.width) * options.height;
-    const bool in_bands = options.bands.bin_lines > 0;
+    const bool in_bands = options.bands.areUsed();
     if (!in_bands && (pixels > kMostWholePixels || std::max(options.width, options.height) > kMostWholeSide))
         return true;
     if (pixels < kWorthwhilePixels || options.method != DiagramMethod::binned) return false;

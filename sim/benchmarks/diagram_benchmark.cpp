@@ -125,14 +125,8 @@ std::vector<std::optional<DiagramTiming>> DiagramBenchmark::run(
         const DiagramInput input{&buffers.sites, &buffers.dispatch, &buffers.slots};
         if (contestant.draw_only) {
             runner.owners = std::make_unique<gl::Buffer>("owners", std::size_t{4} * setup.side * setup.side);
-            runner.yardstick =
-                std::make_unique<GradientDiagram>(DiagramSetup{library,
-                                                               options,
-                                                               std::span<const gpu::DiagramSite>(),
-                                                               *runner.owners,
-                                                               *runner.long_work,
-                                                               {},
-                                                               {}});
+            runner.yardstick = std::make_unique<GradientDiagram>(DiagramSetup{
+                library, options, std::span<const gpu::DiagramSite>(), *runner.owners, *runner.long_work});
             runner.yardstick->connect(input);
         } else {
             runner.diagram = std::make_unique<Diagram>(library, options, std::span<const gpu::DiagramSite>());

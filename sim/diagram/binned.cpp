@@ -56,7 +56,7 @@ void BinnedDiagram::setUpPages(const DiagramSetup& setup) {
 
 /// At most, in the window or in one band of it.
 std::size_t BinnedDiagram::pagesListed() const {
-    const bool in_bands = options_.bands.bin_lines > 0;
+    const bool in_bands = options_.bands.areUsed();
     const std::uint32_t lines = in_bands ? options_.bands.lines(options_.look) : options_.height;
     return std::size_t{pagesAcross(options_.width)} * (pagesAcross(lines) + 1);
 }
@@ -75,9 +75,9 @@ void BinnedDiagram::setUpNear() {
     near_->list = gl::Buffer("diagram pages looked at", {pagesListed(), 4, "page of the window"});
     near_->count = gl::Buffer("diagram pages looked at, count", 16);
     near_->none = gl::makeBuffer("no diagram pages", std::vector<std::uint32_t>{0, 1, 1, 0});
-    near_->list_pages = gl::ComputeProgram(
-        library_, kListPages,
-        options_.bands.bin_lines > 0 ? gl::Definitions{{"BANDED", "1"}} : gl::Definitions{});
+    near_->list_pages =
+        gl::ComputeProgram(library_, kListPages,
+                           options_.bands.areUsed() ? gl::Definitions{{"BANDED", "1"}} : gl::Definitions{});
     near_->list_pages.bind("PageStamps", near_->stamps);
     near_->list_pages.set("diagram_size", glm::vec2(options_.width, options_.height));
     near_->list_pages.set("look", options_.look);
@@ -114,7 +114,7 @@ void BinnedDiagram::connect(const DiagramInput& input) {
 void BinnedDiagram::connectNear() {
     connectGather(near_->gather);
     near_->list_pages.bind("Sites", *input_.sites);
-    if (options_.bands.bin_lines == 0) near_->list_pages.bind("LiveDispatch", *input_.live_dispatch);
+    if (!options_.bands.areUsed()) near_->list_pages.bind("LiveDispatch", *input_.live_dispatch);
 }
 
 void BinnedDiagram::connectGather(gl::ComputeProgram& gather) {
@@ -138,7 +138,7 @@ std::uint64_t BinnedDiagram::blocks(std::uint32_t lines) const {
 
 void BinnedDiagram::build(Extent extent) {
     if (bins_) bins_->sort();
-    if (options_.bands.bin_lines > 0) return;  // until one is asked for
+    if (options_.bands.areUsed()) return;  // until one is asked for
     if (pages_) {
         buildPages(extent);
     } else if (extent == Extent::near_people && canBuildNear()) {

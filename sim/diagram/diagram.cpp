@@ -37,7 +37,7 @@ gl::Room picture(const DiagramOptions& options) {
 
 /// One word a pixel that is kept.
 gl::Room keptOf(const DiagramOptions& options) {
-    if (options.bands.bin_lines == 0) return picture(options);
+    if (!options.bands.areUsed()) return picture(options);
     return {std::size_t{options.width} * options.bands.lines(options.look), 4, "pixel of a band"};
 }
 
@@ -82,7 +82,7 @@ Diagram::Diagram(const gl::ShaderLibrary& library, const DiagramOptions& options
       fixed_sites_(fixed_sites.begin(), fixed_sites.end()),
       long_work_(std::make_unique<LongWork>()),
       extras_(std::make_unique<Extras>()) {
-    if (options_.bands.bin_lines > 0 && (options_.paged || options_.vehicles))
+    if (options_.bands.areUsed() && (options_.paged || options_.vehicles))
         throw std::logic_error("a diagram in bands has neither pages nor vehicles");
     if (options_.paged) {
         if (options_.method != DiagramMethod::binned)
@@ -119,7 +119,7 @@ std::unique_ptr<SparseLayers> Diagram::makeSparseLayers() const {
 }
 
 std::unique_ptr<Diagram::Implementation> Diagram::make() {
-    DiagramSetup setup{library_, options_, fixed_sites_, *owners_, *long_work_, {}, {}};
+    DiagramSetup setup{library_, options_, fixed_sites_, *owners_, *long_work_};
     setup.fixed = [&]() -> const FixedLayers& {
         if (!fixed_layers_) fixed_layers_ = std::make_unique<FixedLayers>(setup);
         return *fixed_layers_;
@@ -158,7 +158,7 @@ std::unique_ptr<Diagram::Implementation> Diagram::make() {
 }
 
 void Diagram::use(DiagramMethod method, const GatherShape& gather) {
-    if ((options_.paged || options_.bands.bin_lines > 0) && method != DiagramMethod::binned)
+    if ((options_.paged || options_.bands.areUsed()) && method != DiagramMethod::binned)
         throw std::logic_error("a diagram that is not kept whole has one method");
     options_.method = method;
     options_.gather = gather;
@@ -175,7 +175,7 @@ void Diagram::use(DiagramMethod method, const GatherShape& gather) {
 
 void Diagram::connect(const DiagramInput& input) {
     input_ = input;
-    if (options_.bands.bin_lines > 0) bands_ = std::make_unique<Bands>(library_, options_, input_);
+    if (options_.bands.areUsed()) bands_ = std::make_unique<Bands>(library_, options_, input_);
     for (Made& made : made_)
         made.implementation->connect(input);
     if (vehicle_cells_) vehicle_cells_->connect(*input.sites, *input.site_slots);
@@ -213,7 +213,7 @@ void Diagram::buildBand(std::uint32_t band, Extent extent) {
 }
 
 gl::Definitions Diagram::lookupDefinitions() const {
-    if (options_.bands.bin_lines > 0) return {{"BANDED", "1"}};
+    if (options_.bands.areUsed()) return {{"BANDED", "1"}};
     return options_.paged ? gl::Definitions{{"PAGED", "1"}} : gl::Definitions{};
 }
 

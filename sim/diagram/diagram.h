@@ -35,6 +35,7 @@ struct BandShape {
     std::uint32_t bin_lines = 0;  ///< lines of the bins that sites come sorted by; 0: it is kept whole
     float bin_side = 0.0f;        ///< px, of these bins
 
+    bool areUsed() const { return bin_lines > 0; }
     /// px: how many lines are kept. @param look px: how far people look
     std::uint32_t lines(float look) const;
 };

@@ -23,8 +23,8 @@ struct DiagramSetup {
     gl::Buffer& owners;
     LongWork& long_work;
     /// What the fixed sites alone give, everywhere and where they are; each made at the first asking.
-    std::function<const FixedLayers&()> fixed;
-    std::function<const SparseLayers&()> sparse;
+    std::function<const FixedLayers&()> fixed = {};
+    std::function<const SparseLayers&()> sparse = {};
     /// One word a pixel.
     gl::Room picture() const { return {std::size_t{options.width} * options.height, 4, "pixel"}; }
     std::uint32_t siteCount() const {

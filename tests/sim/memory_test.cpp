@@ -53,7 +53,7 @@ TEST_F(MemoryTest, GrowsByFourFifthsOfAKibibyteAPerson) {
     EXPECT_GT(a_person, 100.0);
 }
 
-/// Half an adult's breadth less its depth, m, as bodies of layouts have it.
+/// m, about half of an adult's breadth less its depth.
 constexpr float kHalfAxis = 0.1f;
 
 TEST_F(MemoryTest, OfLargeCrowdsIsFourFifthsOfAKibibyteForEverybody) {
