@@ -178,8 +178,8 @@ struct DiagramSite {
     uint id;  // agents: the slot, or for pictures the row; wall tiles: the number of rows + the tile's index
 };
 
-/// The part of a diagram's work that is done while one band of it is kept (sim/diagram/bands.h): a dispatch over the
-/// sites whose places are in it, which stand together, and which those are.
+/// The part of a diagram's work that is done while one band of it is kept (sim/diagram/bands.h): a dispatch
+/// over the sites whose places are in it, which stand together, and which those are.
 struct Band {
     uint groups_x;
     uint groups_y;
