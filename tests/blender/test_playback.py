@@ -57,8 +57,8 @@ def test_instances_are_where_the_arrays_say_at_frames_and_between(played):
                        for frame in scene_frames)
 
 
-def test_figures_bring_every_pose_in_order(blender):
-    found = result_of(blender(HERE / "check_sheets.py", ADDON))
+def test_figures_bring_every_pose_in_order(blender, tmp_path):
+    found = result_of(blender(HERE / "check_sheets.py", ADDON, tmp_path))
     for figure in found["shown"]:
         assert figure["count"] == figure["expected"] and figure["faces"]
         assert figure["off"] == 0.0 and figure["velocity_off"] < 1e-4

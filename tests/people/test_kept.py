@@ -9,7 +9,7 @@ import pytest
 from conftest import ROOT
 
 sys.path.insert(0, str(ROOT / "blender_addon"))
-from throng.people import kept  # noqa: E402
+from throng.cast import kept  # noqa: E402
 
 ARRAYS = {"points": numpy.arange(12.0).reshape(4, 3), "names": numpy.array(["skin", "hair brown"])}
 
@@ -23,7 +23,7 @@ def asked(tmp_path, monkeypatch):
     made = []
 
     def ask(what="a man"):
-        found = kept.kept(library, what, lambda: made.append(what) or dict(ARRAYS))
+        found = kept.kept(what, lambda: made.append(what) or dict(ARRAYS), library)
         assert all(numpy.array_equal(found[name], ARRAYS[name]) for name in ARRAYS) and len(found) == len(ARRAYS)
         return found
     ask.library, ask.folder = library, tmp_path / "cache" / "people"

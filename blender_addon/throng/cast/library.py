@@ -1,11 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Makes a cast's figures in Blender (see the package for what a cast is)."""
+from functools import cache
+from itertools import chain
+
 import bpy
 import numpy
 
 from . import LEVELS, POSES, VARIATIONS, limb_velocities, people, plan_of, poses_of
 from .figure import build_figure
 from .gait import gait_of
+from .kept import kept
 from .materials import cast_materials
 from .sheets import Posed, drop_spare_attributes, make_figure, remove_figures, sheet_of
 
@@ -77,10 +81,11 @@ def add_person(cast, member, repertoire, materials, levels=None):
                 shaped.move(cast, member, sheet_of(there[level]), repertoire)
         return
     person = member % VARIATIONS
-    bodies = [build_figure(people.CAST[person], pose) for pose in poses_of(people.CAST[person], repertoire)]
+    bodies = cache(lambda: [build_figure(people.CAST[person], pose)
+                            for pose in poses_of(people.CAST[person], repertoire)])
     for level in wanted:
-        figure = add_figure(cast, level, member, f"Throng person {member:02d}",
-                            _posed(bodies, level, repertoire, materials))
+        skin = kept(("figure", person, level, repertoire), lambda: _skin(bodies(), level, repertoire))  # noqa: B023
+        figure = add_figure(cast, level, member, f"Throng person {member:02d}", _posed(skin, level, repertoire, materials))
         figure["throng_person"] = person
 
 
@@ -106,20 +111,30 @@ def remove_levels(cast):
                     if level > 0 and "throng_person" in figure])
 
 
-def _posed(bodies, level, repertoire, materials):
+def _skin(bodies, level, repertoire):
+    """What all poses of somebody are at a level: "points" (P, V, 3), and of the faces the "corners", how many of them
+    each has ("sizes"), and the "materials"."""
     plan = plan_of(bodies, repertoire, level)
     points = numpy.array([plan.vertices(bodies[index].rings) for index in repertoire.sources(level)], numpy.float32)
+    return {"points": points, "corners": numpy.fromiter(chain.from_iterable(plan.faces), numpy.int32),
+            "sizes": numpy.fromiter(map(len, plan.faces), numpy.int32),
+            "materials": numpy.array(plan.materials, numpy.int32)}
+
+
+def _posed(skin, level, repertoire, materials):
+    points = skin["points"]
     velocities = walking_velocities(points, repertoire) if level <= BLURS_UNTIL else None
-    return Posed(_template(plan, points[-1], materials), points, velocities)
+    return Posed(_template(skin, materials), points, velocities)
 
 
-def _template(plan, points, materials):
+def _template(skin, materials):
     mesh = bpy.data.meshes.new("throng figure")
-    mesh.from_pydata(points.tolist(), [], plan.faces)
+    faces = numpy.split(skin["corners"], numpy.cumsum(skin["sizes"])[:-1])
+    mesh.from_pydata(skin["points"][-1].tolist(), [], [face.tolist() for face in faces])
     for material in materials:
         mesh.materials.append(material)
-    mesh.polygons.foreach_set("material_index", plan.materials)
-    mesh.polygons.foreach_set("use_smooth", [True] * len(plan.faces))
+    mesh.polygons.foreach_set("material_index", skin["materials"])
+    mesh.polygons.foreach_set("use_smooth", [True] * len(faces))
     mesh.update()
     drop_spare_attributes(mesh)
     return mesh

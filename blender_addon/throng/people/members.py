@@ -8,11 +8,11 @@ from types import SimpleNamespace
 import numpy
 
 from ..cast import POSES, gait, poses_of_build, skinning
-from ..cast.library import BLURS_UNTIL, shaped
 from ..cast.bones import Boned
+from ..cast.kept import kept
+from ..cast.library import BLURS_UNTIL, shaped
 from . import figures, library
 from .casting import person_of
-from .kept import kept
 from .person import Maker
 from .roster import Role
 
@@ -68,9 +68,10 @@ def leading(role, repertoire):
 @lru_cache(maxsize=_KEPT)
 def _bones(role, repertoire):
     """{"matrices", and "limbs", "joints", "trunk" as cast.bones.Boned has them in `limbs`}, of the bones that lead."""
-    return kept(library.library_path(), ("bones", str(role), repertoire), lambda: {
+    return kept(("bones", str(role), repertoire), lambda: {
         "matrices": _of_all_poses(role, repertoire)[:, leading(role, repertoire)],
-        **dict(zip(("limbs", "joints", "trunk"), map(numpy.asarray, _limbs_of(role, repertoire))))})
+        **dict(zip(("limbs", "joints", "trunk"), map(numpy.asarray, _limbs_of(role, repertoire))))},
+        library.library_path())
 
 
 def matrices_of(role, repertoire):
@@ -110,8 +111,8 @@ def _at_rest(role, level, repertoire):
 
 def mesh_on_bones(role, level, repertoire):
     """(somebody's mesh at rest, (V, MOST) how its vertices hang on the bones that lead)"""
-    arrays = kept(library.library_path(), ("mesh", str(role), level, repertoire),
-                  lambda: _at_rest(role, level, repertoire))
+    arrays = kept(("mesh", str(role), level, repertoire), lambda: _at_rest(role, level, repertoire),
+                  library.library_path())
     found = SimpleNamespace(**arrays)
     found.materials = found.materials.tolist()
     mesh = figures.mesh_of("throng figure", found, found.points, person_of(role).look, bodies())

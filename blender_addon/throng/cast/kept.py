@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """What was worked out of somebody once is kept in the user's cache: to shape and dress 64 people takes some ten seconds
-of every import, and they are the same each time.
+of every import, to make the add-on's own twelve three, and they are the same each time.
 
-A file for each thing, named by a hash of all that it depends on: who it is, what they can do, the library of bodies,
-and the code of the add-on. Nothing else is ever in it, so what cannot be read is made anew, and whoever empties the
+A file for each thing, named by a hash of all that it depends on: who it is, what they can do, the library of bodies
+where they are shaped from one, and the code of the add-on. Nothing else is ever in it, so what cannot be read is made anew, and whoever empties the
 folder loses nothing but time. What nobody has asked for in the longest time goes when there is too much.
 """
 import hashlib
@@ -50,19 +50,21 @@ def _hash_of(path, _size, _changed):
     return hashlib.sha256(pathlib.Path(path).read_bytes()).digest()
 
 
-def _name(library, what):
-    status = os.stat(library)
-    found = hashlib.sha256(_code() + _hash_of(str(library), status.st_size, status.st_mtime_ns))
+def _name(what, files):
+    found = hashlib.sha256(_code())
+    for file in files:
+        status = os.stat(file)
+        found.update(_hash_of(str(file), status.st_size, status.st_mtime_ns))
     found.update(repr(what).encode())
     return f"{found.hexdigest()[:40]}.npz"
 
 
-def kept(library, what, make):
-    """{name: array} as make() has it. @param library the file of bodies, if there is one; @param what all else that it
-    depends on"""
-    where = folder() if library else None  # without one, make() says so
+def kept(what, make, *files):
+    """{name: array} as make() has it. @param what all that it depends on, but for the files; where one of these is None
+    make() says so"""
+    where = folder() if all(files) else None
     try:
-        path = where / _name(library, what) if where else None
+        path = where / _name(what, files) if where else None
         found = _read(path) if path else None
     except OSError:
         path = found = None
