@@ -15,6 +15,7 @@ namespace throng::authoring {
 namespace {
 
 using Does = BehaviourState::Does;
+using Kind = Condition::Kind;
 
 struct Verb {
     const char* key;
@@ -359,7 +360,6 @@ void BehaviourReader::readTransition(const JsonNode& node, SchemaRule rule, Stat
     ObjectReader reader(node, rule, "what ends a state", diagnostics_);
     if (!reader.isObject()) return;
     Transition transition;
-    using Kind = Condition::Kind;
     for (const auto& [key, kind] : {std::pair{"after", Kind::after}, std::pair{"at", Kind::at}})
         if (Condition* timed = addCondition(reader, key, kind, transition))
             timed->time = readDistribution(reader, key, {}, diagnostics_);
@@ -400,7 +400,6 @@ void BehaviourReader::readNearness(ObjectReader& reader, const JsonNode& node, T
 }
 
 void BehaviourReader::readCounts(ObjectReader& reader, const JsonNode& node, Transition& transition) {
-    using Kind = Condition::Kind;
     for (const auto& [key, kind] : {std::pair{"empty", Kind::empty}, std::pair{"all_here", Kind::all_here}})
         if (Condition* counted = addCondition(reader, key, kind, transition))
             if (const auto place = places_.place(*node.find(key))) counted->place = *place;
@@ -414,7 +413,6 @@ void BehaviourReader::readCounts(ObjectReader& reader, const JsonNode& node, Tra
 }
 
 void BehaviourReader::readGates(ObjectReader& reader, const JsonNode& node, Transition& transition) {
-    using Kind = Condition::Kind;
     for (const auto& [key, kind] : {std::pair{"open", Kind::open}, std::pair{"closed", Kind::closed}}) {
         Condition* gate = addCondition(reader, key, kind, transition);
         if (!gate) continue;
@@ -431,7 +429,6 @@ void BehaviourReader::readGates(ObjectReader& reader, const JsonNode& node, Tran
 }
 
 void BehaviourReader::readLights(ObjectReader& reader, const JsonNode& node, Transition& transition) {
-    using Kind = Condition::Kind;
     for (const auto& [key, kind] : {std::pair{"green", Kind::green}, std::pair{"red", Kind::red}}) {
         Condition* light = addCondition(reader, key, kind, transition);
         if (!light) continue;

@@ -56,7 +56,8 @@ authoring::Scene openCrowd(std::uint32_t count, float spacing, std::uint32_t see
     for (std::uint32_t i = 0; i < count; ++i) {
         const std::uint32_t line = places[i] / side;
         const glm::vec2 cell(static_cast<float>(places[i] % side), static_cast<float>(line));
-        const glm::vec2 position = (cell + 0.5f) * spacing + glm::vec2(jitter(random), jitter(random));
+        const float aside = jitter(random);  // in this order, whatever a compiler makes of arguments
+        const glm::vec2 position = (cell + 0.5f) * spacing + glm::vec2(jitter(random), aside);
         addPerson(scene, position, {anywhere(random), anywhere(random)});
     }
     return scene;

@@ -231,7 +231,7 @@ void Diagram::lookUpInBand(gl::ComputeProgram& program, std::uint32_t band) cons
 /// All bands under each other, once for each build.
 const gl::Buffer& Diagram::assembleBands() {
     if (!extras_->whole) {
-        extras_->whole.emplace();
+        extras_->whole = Extras::WholeOwners{};
         extras_->whole->owners = gl::Buffer("diagram owners, whole", picture(options_));
     }
     if (extras_->whole->known) return extras_->whole->owners;
@@ -249,7 +249,7 @@ const gl::Buffer& Diagram::wholeOwners() {
     if (bands_) return assembleBands();
     if (!options_.paged) return *owners_;
     if (!extras_->whole) {
-        extras_->whole.emplace();
+        extras_->whole = Extras::WholeOwners{};
         extras_->whole->owners = gl::Buffer("diagram owners, whole", picture(options_));
         gl::ComputeProgram& flatten = extras_->whole->flatten;
         flatten = gl::ComputeProgram(library_, kFlatten, lookupDefinitions());

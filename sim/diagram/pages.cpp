@@ -85,7 +85,7 @@ Pages::Pages(const gl::ShaderLibrary& library, std::uint32_t width, std::uint32_
 /// @returns how many pages that takes at most
 std::uint64_t Pages::coverVehicles(const gl::ShaderLibrary& library, const VehicleSites& vehicles,
                                    std::uint32_t width, std::uint32_t height) {
-    covers_.emplace();
+    covers_ = Covers{};
     covers_->count = vehicles.count * vehicles.tilesOfOne();
     covers_->tiles =
         gl::Buffer("tiles over vehicles", {covers_->count, sizeof(gpu::DiagramSite), "tile over a vehicle"});
