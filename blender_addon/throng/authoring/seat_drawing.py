@@ -7,9 +7,10 @@ frame: it is moved and turned with it, and built anew only when numbers or point
 import math
 
 import bpy
-import mathutils
+import numpy
 from bpy.app.handlers import persistent
 
+from ..blender.meshes import fill
 from ..blender.nodes import get_input, own_tree, set_input
 from ..cast import seat_rows
 from ..environment import stands
@@ -17,7 +18,7 @@ from . import colours, seat_plan
 from .geometry import AuthoringError, splines_of, top_of
 
 MODIFIER, TREE = "Throng drawing", "Throng drawing seats"
-_SLOTS = {"stone": 0, 0: 1, 1: 1, "passage": 2}
+_SLOTS = {"stone": 0, "seat": 1, "passage": 2}
 _NUMBERS = ("shape", "radius", "begins", "ends", "rows", "pitch", "width", "rise", "height", "aisles", "aisle_width",
             "use_leave")
 _MOUTHS = ("at", "row", "use_passage", "passage")
@@ -81,22 +82,29 @@ def block_of(scene, thing, walked):
         foot=foot, walked=thing.name in walked)
 
 
-def _plain_seat(place, along, height, half):
-    """What is sat on, and what is leant on, from both sides."""
-    faces = seat_rows.seat_faces(place, along, height, half)
-    return [faces[1], faces[2], faces[4]]
+def _plain_seats(plan):
+    """(seats, faces, corners, 3) of all of a block: what is sat on, and what is leant on, from both sides."""
+    faces = seat_rows.seat_faces((0.0, 0.0), (1.0, 0.0), 0.0, seat_rows.SIDE * float(plan["width"]))
+    aside, forward, up = numpy.moveaxis(numpy.array([faces[1], faces[2], faces[4]]), -1, 0)
+    seats = [(*place, *way, height) for row in plan["rows"] for place, way, height in seat_rows.seats_of(plan, row)]
+    x, y, along_x, along_y, height = numpy.reshape(seats, (-1, 5)).T[:, :, None, None]
+    return numpy.stack([x + along_x * aside - along_y * forward, y + along_y * aside + along_x * forward, height + up],
+                       axis=-1)
 
 
 def _fill(mesh, plan, matrix):
     """@param matrix from the world to the object"""
-    places, faces, slots = [], [], []
-    for corners, of in stands.faces_of(plan, _plain_seat):
-        faces.append(range(len(places), len(places) + len(corners)))
-        places += [matrix @ mathutils.Vector(corner) for corner in corners]
-        slots.append(_SLOTS[of])
-    mesh.from_pydata(places, [], faces)
+    built = list(stands.faces_of(plan, lambda *_: ()))
+    seats = _plain_seats(plan)
+    sizes = [len(face) for face, _ in built] + [seats.shape[2]] * (seats.shape[0] * seats.shape[1])
+    slots = [_SLOTS[of] for _, of in built] + [_SLOTS["seat"]] * (len(sizes) - len(built))
+    points = numpy.concatenate([numpy.reshape([corner for face, _ in built for corner in face], (-1, 3)),
+                                seats.reshape(-1, 3)])
+    turn, shift = numpy.array(matrix)[:3, :3], numpy.array(matrix)[:3, 3]
+    fill(mesh, points @ turn.T + shift, numpy.arange(len(points)), sizes)
     mesh.polygons.foreach_set("material_index", slots)
-    mesh.update()
+    mesh.polygons.foreach_set("use_smooth", [False] * len(sizes))
+    mesh.update(calc_edges=True)
 
 
 def _signature(scene, thing, walked):

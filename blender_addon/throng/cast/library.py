@@ -6,6 +6,7 @@ from itertools import chain
 import bpy
 import numpy
 
+from ..blender.meshes import fill
 from . import LEVELS, POSES, VARIATIONS, limb_velocities, people, plan_of, poses_of
 from .figure import build_figure
 from .gait import gait_of
@@ -129,13 +130,12 @@ def _posed(skin, level, repertoire, materials):
 
 def _template(skin, materials):
     mesh = bpy.data.meshes.new("throng figure")
-    faces = numpy.split(skin["corners"], numpy.cumsum(skin["sizes"])[:-1])
-    mesh.from_pydata(skin["points"][-1].tolist(), [], [face.tolist() for face in faces])
+    fill(mesh, skin["points"][-1], skin["corners"], skin["sizes"])
     for material in materials:
         mesh.materials.append(material)
     mesh.polygons.foreach_set("material_index", skin["materials"])
-    mesh.polygons.foreach_set("use_smooth", [True] * len(faces))
-    mesh.update()
+    mesh.polygons.foreach_set("use_smooth", [True] * len(skin["sizes"]))
+    mesh.update(calc_edges=True)
     drop_spare_attributes(mesh)
     return mesh
 

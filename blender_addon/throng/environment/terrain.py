@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The terrain that a bake brings along, as the ground."""
 import bpy
+import numpy
 
+from ..blender.meshes import fill_with_triangles
 from ..setting import horizon
 from . import materials
 from .shapes import inside
@@ -46,16 +48,8 @@ def build_terrain(positions, corners, manifest):
 
 def _terrain(positions, corners, manifest):
     mesh = bpy.data.meshes.new("Throng terrain")
-    faces = len(corners) // 3
-    mesh.vertices.add(len(positions) // 3)
-    mesh.vertices.foreach_set("co", positions)
-    mesh.loops.add(len(corners))
-    mesh.loops.foreach_set("vertex_index", corners)
-    mesh.polygons.add(faces)
-    mesh.polygons.foreach_set("loop_start", range(0, len(corners), 3))
-    if bpy.app.version < (4, 1, 0):
-        mesh.polygons.foreach_set("loop_total", [3] * faces)
-    mesh.polygons.foreach_set("use_smooth", [True] * faces)
+    fill_with_triangles(mesh, numpy.reshape(positions, (-1, 3)), corners)
+    mesh.polygons.foreach_set("use_smooth", [True] * len(mesh.polygons))
     # Floors above each other are paved.
     shares = ([1.0] * (len(positions) // 3) if manifest["terrain"].get("surface") == "levels"
               else _shares(positions, manifest.get("geometry") or {}))

@@ -3,6 +3,7 @@
 import bpy
 import numpy
 
+from ..blender.meshes import fill_with_triangles
 from ..cast.sheets import drop_spare_attributes
 from .materials import material_of
 
@@ -13,19 +14,11 @@ _FINE = 4096.0  # steps a metre of it: what is finer is not seen, and files are 
 def mesh_of(name, model, points, look, bodies):
     """A mesh of somebody at a level of detail, its vertices at those points."""
     mesh = bpy.data.meshes.new(name)
-    faces = len(model.faces)
-    mesh.vertices.add(len(points))
-    mesh.vertices.foreach_set("co", numpy.ascontiguousarray(points, numpy.float32).ravel())
-    mesh.loops.add(3 * faces)
-    mesh.loops.foreach_set("vertex_index", model.faces.astype(numpy.int32).ravel())
-    mesh.polygons.add(faces)
-    mesh.polygons.foreach_set("loop_start", numpy.arange(0, 3 * faces, 3, dtype=numpy.int32))
-    if bpy.app.version < (4, 1, 0):  # later ones tell by themselves
-        mesh.polygons.foreach_set("loop_total", numpy.full(faces, 3, numpy.int32))
+    fill_with_triangles(mesh, points, model.faces.ravel())
     for kind in model.materials:
         mesh.materials.append(material_of(kind, look, bodies))
     mesh.polygons.foreach_set("material_index", model.material_of.astype(numpy.int32))
-    mesh.polygons.foreach_set("use_smooth", numpy.ones(faces, bool))
+    mesh.polygons.foreach_set("use_smooth", numpy.ones(len(model.faces), bool))
     add_pattern(mesh, model)
     mesh.update(calc_edges=True)
     mesh.validate()

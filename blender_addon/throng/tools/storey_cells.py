@@ -10,6 +10,7 @@ import numpy
 
 import bpy
 
+from ..blender.meshes import fill_with_triangles
 from ..setting.plane import inside
 
 AT = "throng_cells_at"  # of corners: where they are in the image, from 0 to 1
@@ -106,16 +107,9 @@ def _on_level(middles, part, level):
 
 def _mesh(corners, at):
     mesh = bpy.data.meshes.new("Throng cells")
-    count = len(corners)
-    mesh.vertices.add(3 * count)
-    mesh.vertices.foreach_set("co", corners.ravel())
-    mesh.loops.add(3 * count)
-    mesh.loops.foreach_set("vertex_index", numpy.arange(3 * count, dtype=numpy.int32))
-    mesh.polygons.add(count)
-    mesh.polygons.foreach_set("loop_start", numpy.arange(0, 3 * count, 3, dtype=numpy.int32))
-    if bpy.app.version < (4, 1, 0):
-        mesh.polygons.foreach_set("loop_total", numpy.full(count, 3, dtype=numpy.int32))
-    vectors = numpy.concatenate([at.reshape(-1, 2), numpy.zeros((3 * count, 1))], axis=1)
+    count = 3 * len(corners)
+    fill_with_triangles(mesh, corners.reshape(-1, 3), numpy.arange(count))
+    vectors = numpy.concatenate([at.reshape(-1, 2), numpy.zeros((count, 1))], axis=1)
     mesh.attributes.new(AT, "FLOAT_VECTOR", "POINT").data.foreach_set("vector", vectors.ravel())
     mesh.update()
     return mesh
