@@ -85,8 +85,9 @@ def add_person(cast, member, repertoire, materials, levels=None):
     bodies = cache(lambda: [build_figure(people.CAST[person], pose)
                             for pose in poses_of(people.CAST[person], repertoire)])
     for level in wanted:
-        skin = kept(("figure", person, level, repertoire), lambda: _skin(bodies(), level, repertoire))  # noqa: B023
-        figure = add_figure(cast, level, member, f"Throng person {member:02d}", _posed(skin, level, repertoire, materials))
+        skin = kept(("figure", person, level, repertoire), lambda: _skin(bodies(), level, repertoire))
+        posed = _posed(skin, level, repertoire, materials)
+        figure = add_figure(cast, level, member, f"Throng person {member:02d}", posed)
         figure["throng_person"] = person
 
 
