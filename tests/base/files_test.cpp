@@ -126,7 +126,7 @@ TEST(PlaneGrid, FindsEachOnceOfAllBesideALine) {
     grid.sort(places);
     std::size_t beside = 0, looked_at = 0;
     for (int line = 0; line < 300; ++line) {
-        glm::dvec2 from(anywhere(random), anywhere(random)), to(anywhere(random), anywhere(random));
+        glm::dvec2 from{anywhere(random), anywhere(random)}, to{anywhere(random), anywhere(random)};
         if (line % 5 == 0) to.y = from.y;
         if (line % 5 == 1) to.x = from.x;
         std::vector<int> found(places.size(), 0);

@@ -70,7 +70,7 @@ TEST(MeshCut, ASolidTakesWhatIsInItAndNothingElse) {
     for (int i = 0; i < 63; ++i) {
         TerrainMesh floor;
         addFloor(floor, {-5, -5}, {5, 5}, 0.7);
-        const glm::dvec2 middle(place(random), place(random)), half(size(random), size(random));
+        const glm::dvec2 middle{place(random), place(random)}, half{size(random), size(random)};
         const UprightSolid solid = solidAt(middle, half, angle(random), 0.0, 1.0);
         const CutMesh cut = cutOut(floor, {solid}, false);
         EXPECT_NEAR(areaOf(cut.mesh), 100.0 - 4.0 * half.x * half.y, 1.0e-6);

@@ -115,7 +115,7 @@ TEST(LookedAtCount, IsThatOfPagesWithinReachOfSomebody) {
         count.begin();
         std::set<std::pair<int, int>> pages;
         for (int i = 0; i < people; ++i) {
-            const glm::vec2 place(x(random), y(random));
+            const glm::vec2 place{x(random), y(random)};
             count.add(place);
             const glm::vec2 pixel = (place - parameters.diagram_minimum) * 3.0f;
             const auto seen = [](float at, double reach, int size) {

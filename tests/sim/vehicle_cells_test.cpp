@@ -260,7 +260,7 @@ TEST_F(HeededVehiclesTest, AreNearlyTheSameByTheDiagramAsExactly) {
         for (int i = 0; i < 5; ++i)
             boxes.push_back(boxAt({place(random), place(random)}, place(random), 4.5f, 0.9f));
         while (static_cast<int>(scene.people.size()) < people) {
-            const glm::vec2 at(place(random), place(random));
+            const glm::vec2 at{place(random), place(random)};
             bool free = true;
             for (const gpu::VehicleBox& box : boxes)
                 free = free && distanceTo(box, at) > 0.3;
