@@ -117,9 +117,13 @@ def large_crowds(runs, crowds, *settings):
 
 
 def holding(found):
-    """How many of some seeds hold all bars, and which do not."""
-    missing = [f"seed {i + 1}: {', '.join(each['missed'])}" for i, each in enumerate(found) if each["missed"]]
-    return f"{len(found) - len(missing)} of {len(found)}" + (f" ({'; '.join(missing)})" if missing else "")
+    """How many of some seeds hold all bars, and which do not hold what."""
+    missing = {}
+    for seed, each in enumerate(found, 1):
+        for bar in each["missed"]:
+            missing.setdefault(bar.partition(" is ")[0], []).append(str(seed))
+    told = "; ".join(f"{bar}: not {', '.join(which)}" for bar, which in missing.items())
+    return f"{sum(not each['missed'] for each in found)} of {len(found)}" + (f" ({told})" if told else "")
 
 
 def seeds(runs):
