@@ -94,7 +94,7 @@ def _plain_seats(plan):
 
 def _fill(mesh, plan, matrix):
     """@param matrix from the world to the object"""
-    built = list(stands.faces_of(plan, lambda *_: ()))
+    built = list(stands.built_of(plan))
     seats = _plain_seats(plan)
     sizes = [len(face) for face, _ in built] + [seats.shape[2]] * (seats.shape[0] * seats.shape[1])
     slots = [_SLOTS[of] for _, of in built] + [_SLOTS["seat"]] * (len(sizes) - len(built))

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """What was worked out of somebody once is kept in the user's cache: to shape and dress 64 people takes some ten seconds
-of every import, to make the add-on's own twelve three, and they are the same each time.
+of every import, to make the add-on's own twelve two, and they are the same each time.
 
 A file for each thing, named by a hash of all that it depends on: who it is, what they can do, the library of bodies if
 they are shaped from one, and the code of the add-on. Nothing else is ever in it, so what cannot be read is made anew,

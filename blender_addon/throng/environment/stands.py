@@ -29,16 +29,22 @@ def _build(block):
     return shape.to_object()
 
 
-def faces_of(block, seat_faces=seat_rows.seat_faces):
+def faces_of(block):
     """Everything that a block is built of, as (corners, "stone", "passage" or 0 and 1 of a row's seats in turns)."""
+    yield from built_of(block)
+    for row in block["rows"]:
+        for number, (place, way, height) in enumerate(seat_rows.seats_of(block, row)):
+            for face in seat_rows.seat_faces(place, way, height, seat_rows.SIDE * float(block["width"])):
+                yield face, number % len(_COLOURS)
+
+
+def built_of(block):
+    """All of that but the seats."""
     slabs = seat_mouths.has_passages(block)  # people walk under them
     for row in block["rows"]:
         bottom = seat_rows.bottom_of(block, row, seat_mouths.SLAB if slabs else None)
         for face in seat_rows.step_faces(*seat_rows.step_of(block, row), seat_rows.heights_of(row), bottom):
             yield face, "stone"
-        for number, (place, way, height) in enumerate(seat_rows.seats_of(block, row)):
-            for face in seat_faces(place, way, height, seat_rows.SIDE * float(block["width"])):
-                yield face, number % len(_COLOURS)
     for aisle in block.get("aisles", ()):
         yield from _mouth(block, aisle) if slabs else _steps(block, aisle)
 
