@@ -128,9 +128,9 @@ def holding(found):
 
 def seeds(runs):
     rows = []
-    for name in ("ring", "annulus", "corridor", "crossing"):
+    for name in ("ring", "annulus", "corridor", "crossing", "crossing-adults"):
         found = each_seed(runs, name, SEEDS)
-        off = [span_of([each["off"][i] for each in found], 0) for i in (0, 1)] if "off" in found[0] else ["", ""]
+        away = [each["furthest_off"] for each in found if "furthest_off" in each]
         rows.append(
             [
                 f"{name}, {seeds_of(found)}",
@@ -139,7 +139,8 @@ def seeds(runs):
                 span_of([each["deepest_overlap_percent"] for each in found]),
                 number(max(each["overlapping_percent"] for each in found)),
                 sum(each["wall_crossings"] for each in found),
-                *off,
+                span_of(away) if away else "",
+                span_of([each["off"] for each in found], 0) if away else "",
             ]
         )
     head = [
@@ -149,8 +150,8 @@ def seeds(runs):
         "deepest overlap, % of 2a",
         "overlapping pairs, % of people, worst seed",
         "walls crossed",
-        "people more than 20 m off their way",
-        "more than 40 m",
+        "who gets furthest from its street, m beyond its edge",
+        "people more than 15 m beyond it",
     ]
     return table(head, rows)
 

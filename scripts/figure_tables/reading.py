@@ -9,7 +9,8 @@ import numpy
 FURTHER_DOOR = 15.0  # m: rimea-11's crowd starts west of it
 WEIDMANN = (1.34, 1.913, 5.4)  # m/s, 1/m^2, 1/m^2: free speed, gauge, density at standstill
 STRETCH = (45.0, 65.0)  # m along rimea-4's corridors
-OFF = (20.0, 40.0)  # m from the middle of one's way
+HALF_STREET = 15.0  # m: half the width of the crossing's streets
+CARRIED_OFF = 15.0  # m beyond them
 
 
 def people_of(bake):
@@ -52,7 +53,7 @@ def company(bake):
 
 
 def carried_off(bake):
-    """How many get far from the middle of their own way: from where their group stands to where it goes."""
+    """How far beyond their street the crossing's people get: from where their group stands to where it goes."""
     people, position = people_of(bake), stream(bake, "pos")
     goals = numpy.array([[float(person["goal_x"]), float(person["goal_y"])] for person in people])
     groups = numpy.array([person["group"] for person in people])
@@ -64,7 +65,8 @@ def carried_off(bake):
         aside = numpy.array([-along[1], along[0]]) / numpy.hypot(*along)
         for frame in range(0, len(position), 15):
             off[rows] = numpy.maximum(off[rows], numpy.abs((position[frame][rows, :2] - start) @ aside))
-    return {"off": [int((off > limit).sum()) for limit in OFF]}
+    beyond = off - HALF_STREET
+    return {"off": int((beyond > CARRIED_OFF).sum()), "furthest_off": float(beyond.max())}
 
 
 def speed_and_density(bake):
@@ -83,4 +85,10 @@ def speed_and_density(bake):
 
 
 # What is read besides whenever one of these is baked, so that no table bakes it again.
-OF = {"company": company, "crossing": carried_off, "rimea-10": own_exits, "rimea-11": further_door}
+OF = {
+    "company": company,
+    "crossing": carried_off,
+    "crossing-adults": carried_off,
+    "rimea-10": own_exits,
+    "rimea-11": further_door,
+}
