@@ -127,6 +127,7 @@ PersonSettings profileNamed(const std::string& name, SchemaRule people_rule) {
 
 constexpr const char* kOfProfile = "profile";
 constexpr const char* kOfAdult = "adult";
+constexpr const char* kDisc = "disc";
 
 BodySides readSides(ObjectReader& reader, Diagnostics& diagnostics) {
     const Distribution unread;
@@ -168,13 +169,20 @@ std::optional<BodySides> readOwnSides(const JsonNode& node, SchemaRule rule, Dia
     return sides;
 }
 
+/// Gives everybody the body of that name; `profile`: that of everybody's own profile.
+void giveBodies(const std::string& name, SchemaRule rule, People& people) {
+    for (PeopleShare& share : people.kinds) {
+        if (name == kDisc)
+            share.settings.body = std::nullopt;
+        else
+            share.settings.body = bodyNamed(name == kOfProfile ? share.profile : name, rule);
+    }
+}
+
 void readBody(ObjectReader& people_reader, const JsonNode& people_node, SchemaRule people_rule,
               People& people, Diagnostics& diagnostics) {
     const JsonNode* node = people_reader.get("body");
     if (!node) return;
-    if (people_node.find("radius"))
-        diagnostics.error(node->where, "people are discs (`radius`) or have a `body`, not both",
-                          "leave out one of the two");
     const SchemaRule rule = people_rule.property("body");
     if (node->kind == JsonNode::Kind::object) {
         const std::optional<BodySides> sides = readOwnSides(*node, rule, diagnostics);
@@ -182,13 +190,17 @@ void readBody(ObjectReader& people_reader, const JsonNode& people_node, SchemaRu
             share.settings.body = sides;
     } else {
         Meanings<std::string> names;
-        for (const char* each : {kOfProfile, kOfAdult, "child", "elderly", "suitcase", "wheelchair", "pram"})
+        for (const char* each :
+             {kOfProfile, kOfAdult, "child", "elderly", "suitcase", "wheelchair", "pram", kDisc})
             names.emplace_back(each, each);
-        std::string name = kOfProfile;
+        std::string name = kDisc;
         people_reader.choice("body", names, name);
-        for (PeopleShare& share : people.kinds)
-            share.settings.body = bodyNamed(name == kOfProfile ? share.profile : name, rule);
+        giveBodies(name, rule, people);
+        if (name == kDisc) return;
     }
+    if (people_node.find("radius"))
+        diagnostics.error(node->where, "people are discs (`radius`) or have a `body`, not both",
+                          "leave out one of the two");
 }
 
 void readProfile(ObjectReader& people_reader, const JsonNode& node, SchemaRule people_rule, People& people,

@@ -78,6 +78,10 @@ def people():
     flow("via2").people.profile = "child"
 
 
+def wheelchairs():
+    flow("via2").people.body = "wheelchair"
+
+
 def mean_speed():
     flow("same").people.speed.a = 0.3
 

@@ -107,6 +107,7 @@ EDITS = {
                     "/formations/5/agents/3/goal/choose/hall", "/formations/5/agents/3/goal/choose/foyer"},
     "rename_flow": {"/flows/1/id", "/events/2/flow"},
     "people": {"/flows/2/people/profile"},
+    "wheelchairs": {"/flows/2/people/body"},
     "mean_speed": {"/flows/0/people/speed/log_normal/0"},
     "unset_speed": {"/flows/0/people/speed"},
     "stop_longer": {"/flows/1/via/4/wait"},
@@ -175,6 +176,7 @@ def test_flows_and_events_are_as_they_were_set(edited):
     assert after["stop_longer"]["flows"][1]["via"][4]["wait"] == 5.5
     assert after["amount"]["flows"][1]["count"] == 12 and "rate" not in after["amount"]["flows"][1]
     assert after["reorder_stops"]["flows"][1]["via"][:2] == before["flows"][1]["via"][1::-1]
+    assert after["wheelchairs"]["flows"][2]["people"]["body"] == "wheelchair"
     assert after["mean_speed"]["flows"][0]["people"]["speed"]["log_normal"] == [0.3, 0.1]
 
 

@@ -202,6 +202,20 @@ class Profile(_WordOrWeights):
         return {word: short(weight) for word, weight in zip(PROFILES, weights) if weight > 0.0}
 
 
+_BODY = LAYOUT.entry("people", "body")
+BODIES = words_of(_BODY)
+
+
+class Body(Choice):
+    """A body that has a name; unset where the layout has its breadth and depth, which stay as they are."""
+
+    def __init__(self, key):
+        super().__init__(key, BODIES, _BODY["default"])
+
+    def shown(self, raw):
+        return UNSET if isinstance(raw, dict) else super().shown(raw)
+
+
 GROUPS = words_of(LAYOUT.entry("people", "groups"))
 
 

@@ -2,7 +2,7 @@
 """What a layout's objects hold, as codecs. Limits, defaults, words and what they mean are the schema's; labels, order
 and what something new begins with, where the schema has no default, are ours. Pure Python."""
 from . import schema
-from .codecs import UNSET, Choice, Distribution, Flag, Groups, Nested, Number, Optional, Profile, Whole
+from .codecs import UNSET, Body, Choice, Distribution, Flag, Groups, Nested, Number, Optional, Profile, Whole
 
 _LABELS = {"warmup": "Warm-up", "fps": "Frame Rate"}
 _SMALL_WORDS = ("of", "per")
@@ -92,7 +92,7 @@ METHODS = schema.words_of(schema.LAYOUT.entry("simulation", "method"))
 BARS = tuple(key for key, entry in schema.LAYOUT.entries(schema.LAYOUT.named("expect")).items() if "$ref" in entry)
 BAR = (Optional(_codec("bar", "min", "least")), Optional(_codec("bar", "max", "most")))
 
-PEOPLE = (*_codecs("people", "speed", "radius", "maximum_speed_factor", "headway"),
+PEOPLE = (*_codecs("people", "speed", "radius", "maximum_speed_factor", "headway"), Body("body"),
           Profile("profile", "profile_weights"), _codec("people", "reaction"), Groups("groups", "group_weights"),
           _codec("people", "look"))
 

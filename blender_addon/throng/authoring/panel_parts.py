@@ -140,6 +140,7 @@ def list_of(layout, data, name, active, kind, add=None, owner=""):
 def people(layout, who_):
     """Who they are."""
     distribution(layout, who_, "speed")
+    layout.prop(who_, "body")
     distribution(layout, who_, "radius")
     for name, weights in (("profile", "profile_weights"), ("groups", "group_weights")):
         layout.prop(who_, name)

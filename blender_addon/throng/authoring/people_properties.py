@@ -3,14 +3,18 @@
 import bpy
 from bpy.props import EnumProperty, FloatProperty, FloatVectorProperty, PointerProperty
 
-from .codecs import GROUPS, LOOKS, MIX, PROFILES
+from .codecs import BODIES, GROUPS, LOOKS, MIX, PROFILES, UNSET, Body
 from .common_properties import ThrongDistribution, words_items
 from .fields import limits
 
 
 class ThrongPeople(bpy.types.PropertyGroup):
     speed: PointerProperty(type=ThrongDistribution, name="Speed", description="Preferred walking speed, m/s")
-    radius: PointerProperty(type=ThrongDistribution, name="Radius", description="Body radius, m")
+    radius: PointerProperty(type=ThrongDistribution, name="Radius",
+                            description="Of people who are discs, in place of a body, m")
+    body: EnumProperty(name="Body", default=Body("body").default,
+                       items=words_items(BODIES) + [(UNSET, "Own", "As broad and as deep as the layout says")],
+                       description="How broad and deep people are; discs are as wide as shoulders, or have a radius")
     reaction: PointerProperty(type=ThrongDistribution, name="Reaction",
                               description="How long people take to set off when an event sends them away, s")
     maximum_speed_factor: FloatProperty(name="Hurry", **limits("people", "maximum_speed_factor"),
