@@ -28,6 +28,35 @@ Scene sceneOf(const std::string& rest) {
     return scene.value_or(Scene{});
 }
 
+TEST(Bodies, AreDiscsAsWideAsShouldersUnlessToldAndThatCanBeSaid) {
+    const auto people = [](const std::string& who) {
+        return sceneOf(R"("flows": [{"id": "f", "from": "a", "to": "b", "count": 63, "people": {)" + who +
+                       "}}]}")
+            .people;
+    };
+    const std::vector<gpu::Person> unsaid = people(R"("profile": "child")");
+    const std::vector<gpu::Person> said = people(R"("profile": "child", "body": "disc")");
+    const std::vector<gpu::Person> with_radius = people(R"("body": "disc", "radius": 0.31)");
+    const std::vector<gpu::Person> bodies = people(R"("profile": "child", "body": "profile")");
+    ASSERT_EQ(unsaid.size(), 63u);
+    for (std::size_t i = 0; i < unsaid.size(); ++i) {
+        EXPECT_EQ(unsaid[i].half_axis, 0.0f);
+        EXPECT_EQ(said[i].half_axis, 0.0f);
+        EXPECT_EQ(said[i].radius, unsaid[i].radius);
+        EXPECT_EQ(with_radius[i].radius, 0.31f);
+        EXPECT_GT(bodies[i].half_axis, 0.0f);
+    }
+}
+
+TEST(Bodies, AreNotGivenBesideARadius) {
+    Diagnostics diagnostics;
+    readLayout(kPlaces + R"("flows": [{"id": "f", "from": "a", "to": "b", "count": 1,
+ "people": {"radius": 0.2, "body": "adult"}}]})",
+               {}, diagnostics);
+    ASSERT_EQ(diagnostics.entries.size(), 1u);
+    EXPECT_NE(diagnostics.entries.front().message.find("not both"), std::string::npos);
+}
+
 TEST(Parties, HaveTheObservedSizes) {
     const Scene scene = sceneOf(
         R"("flows": [{"id": "f", "from": "a", "to": "b", "count": 20000, "people": {"groups": "leisure"}}]})");
