@@ -29,7 +29,7 @@ class Table(typing.NamedTuple):
 TABLES = {
     "scenarios": Table("motion-validation.md", 8, motion.scenarios),
     "rvo2-motion": Table("motion-validation.md", 15, motion.rvo2_motion),
-    "seeds": Table("motion-validation.md", 30, motion.seeds),
+    "seeds": Table("motion-validation.md", 80, motion.seeds),
     "large": Table("motion-validation.md", 45, motion.large),
     "large-ring": Table("motion-validation.md", 100, motion.large_ring),
     "large-streets": Table("motion-validation.md", 25, motion.large_streets),
