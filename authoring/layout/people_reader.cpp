@@ -169,16 +169,6 @@ std::optional<BodySides> readOwnSides(const JsonNode& node, SchemaRule rule, Dia
     return sides;
 }
 
-/// Gives everybody the body of that name; `profile`: that of everybody's own profile.
-void giveBodies(const std::string& name, SchemaRule rule, People& people) {
-    for (PeopleShare& share : people.kinds) {
-        if (name == kDisc)
-            share.settings.body = std::nullopt;
-        else
-            share.settings.body = bodyNamed(name == kOfProfile ? share.profile : name, rule);
-    }
-}
-
 void readBody(ObjectReader& people_reader, const JsonNode& people_node, SchemaRule people_rule,
               People& people, Diagnostics& diagnostics) {
     const JsonNode* node = people_reader.get("body");
@@ -195,8 +185,9 @@ void readBody(ObjectReader& people_reader, const JsonNode& people_node, SchemaRu
             names.emplace_back(each, each);
         std::string name = kDisc;
         people_reader.choice("body", names, name);
-        giveBodies(name, rule, people);
         if (name == kDisc) return;
+        for (PeopleShare& share : people.kinds)
+            share.settings.body = bodyNamed(name == kOfProfile ? share.profile : name, rule);
     }
     if (people_node.find("radius"))
         diagnostics.error(node->where, "people are discs (`radius`) or have a `body`, not both",

@@ -190,7 +190,7 @@ def test_walls_out_of_reach_cost_a_step_little(throng, tmp_path):
     steps, diagrams = ({name: min(taken[name][which] for taken in rounds) for name in ways} for which in (0, 1))
     # Measured: 1.03 of the grid's step and 0.7 of one in which the whole picture is copied; an eighth of its diagram.
     assert steps["auto"] < 2.0 * steps["grid"], steps
-    assert steps["auto"] < steps["per-site"] / 1.1, steps
+    assert steps["auto"] < steps["per-site"] / 1.2, steps
     assert diagrams["auto"] < 0.5 * diagrams["per-site"], diagrams
     for name in ("auto", "per-site"):
         throng("bake", layouts[name], "-o", tmp_path / name, "-q", "--no-gltf")
