@@ -8,9 +8,12 @@ float laterThanUsual() { return max(parameters.decision_seconds - FORESIGHT_USUA
 
 /// The coarse map of jams knows of no jamb: its slope leads straight to where there is room, and who stands at a jamb
 /// walks into it, the better the worse the jam is. So who strides and does not get on in a narrow passage, or close
-/// before one, goes by the free way, round the jamb. Who has no body to stride with presses through.
-bool heedsJams(Walker walker, bool narrow) {
-    return !(narrow && hasBody(walker)) || walker.nervousness < ROUTES_ROUND_JAMS_STUCK;
+/// before one, goes by the free way, round the jamb. On stairs there is no other way, and the map is as coarse as they
+/// are wide: who heeded it there would turn into the balustrade, or back up. Who has no body to stride with presses
+/// through.
+bool heedsJams(Walker walker, bool narrow, bool on_stairs) {
+    if (!hasBody(walker)) return true;
+    return !on_stairs && (!narrow || walker.nervousness < ROUTES_ROUND_JAMS_STUCK);
 }
 
 /// The way from where one will be, or from where one is, if there might be a wall in between: beyond that, the way is

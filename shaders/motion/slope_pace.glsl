@@ -23,10 +23,17 @@ struct Incline {
     bool is_belt;
 };
 
+/// How much the ground at a position is stairs, 0 to 1.
+float stairsAt(vec2 position) {
+    return smoothstep(SLOPE_PACE_STAIRS_BEGIN, SLOPE_PACE_STAIRS_COMPLETE, smoothGround(position).y);
+}
+
+bool mostlyStairs(float stairs) { return stairs >= 0.5; }
+
 Incline inclineAt(vec2 position, vec2 direction) {
     Incline incline;
     incline.slope = smoothSlope(position, direction, SLOPE_PACE_REACH);
-    incline.stairs = smoothstep(SLOPE_PACE_STAIRS_BEGIN, SLOPE_PACE_STAIRS_COMPLETE, smoothGround(position).y);
+    incline.stairs = stairsAt(position);
     incline.is_belt = false;
 #ifdef BELTS
     uint chart = chartOf(chartCellAt(position));
@@ -40,6 +47,6 @@ float paceOn(Incline incline) { return mix(hikingPace(incline.slope), stairPace(
 
 /// WALKER_CLIMBS, WALKER_DESCENDS or none: how people walk on belts is a rule of its own.
 uint climbingFlags(Incline incline) {
-    if (incline.is_belt || incline.stairs < 0.5) return 0u;
+    if (incline.is_belt || !mostlyStairs(incline.stairs)) return 0u;
     return incline.slope > 0.0 ? WALKER_CLIMBS : WALKER_DESCENDS;
 }

@@ -63,8 +63,12 @@ void main() {
     Walker walker = walkers[slot];
     Stage stage = stageOf(walker.stage, ticketOf(walker), position);
     bool narrow = (touch_words[slot] & TOUCH_IN_NARROWS) != 0u;
+    bool on_stairs = false;
+#ifdef TERRAIN
+    on_stairs = mostlyStairs(stairsAt(position));
+#endif
     RouteAhead ahead = wayAhead(stage, position, bodies[slot].velocity, neighbour_counts[slot], walker.nervousness,
-                                heedsJams(walker, narrow));
+                                heedsJams(walker, narrow, on_stairs));
 
     walkers[slot].way_through = packSnorm2x16(narrow ? wayThrough(stage, position, ahead) : ahead.direction);
 
