@@ -21,7 +21,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "scripts" / "figure_tables"))
 import reading  # noqa: E402
 
-PEOPLE = {"body": {"profile": "adult", "body": "adult"}, "disc": {"profile": "adult"}}
+PEOPLE = {"body": {"profile": "adult", "body": "adult"}, "disc": {"profile": "adult", "body": "disc"}}
 SPECIFIC_FLOW = 1.9  # persons/(s m): Seyfried et al. 2009, for 0.9 to 2.5 m
 NEAR_DOOR = 1.5  # m round the middle of a door, on the side where people wait
 HEAD = "| | found (mean) | worst seed | wanted | holds | deepest overlap, % | steps backwards, % |"

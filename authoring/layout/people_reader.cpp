@@ -169,12 +169,20 @@ std::optional<BodySides> readOwnSides(const JsonNode& node, SchemaRule rule, Dia
     return sides;
 }
 
+void giveBodies(People& people, const std::string& name, SchemaRule rule) {
+    if (name == kDisc) return;
+    for (PeopleShare& share : people.kinds)
+        share.settings.body = bodyNamed(name == kOfProfile ? share.profile : name, rule);
+}
+
+/// Whoever has a `radius` is a disc.
 void readBody(ObjectReader& people_reader, const JsonNode& people_node, SchemaRule people_rule,
               People& people, Diagnostics& diagnostics) {
-    const JsonNode* node = people_reader.get("body");
-    if (!node) return;
     const SchemaRule rule = people_rule.property("body");
-    if (node->kind == JsonNode::Kind::object) {
+    const JsonNode* node = people_reader.get("body");
+    const bool has_radius = people_node.find("radius") != nullptr;
+    std::string name = kOfProfile;
+    if (node && node->kind == JsonNode::Kind::object) {
         const std::optional<BodySides> sides = readOwnSides(*node, rule, diagnostics);
         for (PeopleShare& share : people.kinds)
             share.settings.body = sides;
@@ -183,13 +191,11 @@ void readBody(ObjectReader& people_reader, const JsonNode& people_node, SchemaRu
         for (const char* each :
              {kOfProfile, kOfAdult, "child", "elderly", "suitcase", "wheelchair", "pram", kDisc})
             names.emplace_back(each, each);
-        std::string name = kDisc;
         people_reader.choice("body", names, name);
-        if (name == kDisc) return;
-        for (PeopleShare& share : people.kinds)
-            share.settings.body = bodyNamed(name == kOfProfile ? share.profile : name, rule);
+        if (!node && has_radius) name = kDisc;
+        giveBodies(people, name, rule);
     }
-    if (people_node.find("radius"))
+    if (node && has_radius && name != kDisc)
         diagnostics.error(node->where, "people are discs (`radius`) or have a `body`, not both",
                           "leave out one of the two");
 }
@@ -302,8 +308,11 @@ Distribution readDistribution(ObjectReader& owner, const std::string& key, const
 People readPeople(ObjectReader& owner, Diagnostics& diagnostics) {
     People people;
     const JsonNode* node = owner.get("people");
-    if (!node) return people;
     const SchemaRule rule = owner.rule("people");
+    if (!node) {
+        giveBodies(people, kOfProfile, rule.property("body"));
+        return people;
+    }
     ObjectReader reader(*node, rule, "`people`", diagnostics);
     if (const JsonNode* profile = reader.get("profile"))
         readProfile(reader, *profile, rule, people, diagnostics);

@@ -44,10 +44,10 @@ vec2 wayOfParty(uint row, Walker walker, Stage stage, vec2 position, RouteAhead 
 }
 
 vec2 wayWithParty(uint row, Walker walker, Stage stage, vec2 position, RouteAhead ahead) {
-    vec2 direction = wayOfParty(row, walker, stage, position, ahead);
     // Near one's own place, one goes there, wherever the others' are.
     bool arrives = stage.dwell > 0.0 && ahead.remaining < WAITING_FOR_COMPANY_QUITE_LOST;
-    return arrives ? direction : towardsParty(row, walker, stage, position, ahead, direction);
+    if (arrives) return ahead.direction;
+    return towardsParty(row, walker, stage, position, ahead, wayOfParty(row, walker, stage, position, ahead));
 }
 
 /// The factor on somebody's speed.

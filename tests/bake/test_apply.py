@@ -224,7 +224,7 @@ def test_ctrl_c_leaves_nothing(throng, street, tmp_path):
     manifest["frames"] = frames
     del manifest["streams"]["density"]
     manifest["files"] = [file for file in manifest["files"] if not file["path"].startswith("streams/")]
-    for name in ("pos", "dir", "state"):
+    for name in manifest["streams"]:
         shape = f"{{'descr': '<f4', 'fortran_order': False, 'shape': ({frames}, {people}, 3), }}"
         head = b"\x93NUMPY\x01\x00" + (118).to_bytes(2, "little") + shape.encode().ljust(117) + b"\n"
         with open(bake / "streams" / f"{name}.npy", "r+b") as file:
@@ -306,7 +306,7 @@ def test_damaged_files_are_told_with_their_place(throng, street, tmp_path):
     write(path, [GOOD])
     agents = tmp_path / "street" / "agents.csv"
     for damage, words in ((lambda text: "\n".join(text.splitlines()[:-1]) + "\n", "36 people where bake.json has 37"),
-                          (lambda text: text.replace(",flow,", ",", 1), "line 2 has 17 fields")):
+                          (lambda text: text.replace(",flow,", ",", 1), "line 2 has 19 fields")):
         whole = agents.read_text()
         agents.write_text(damage(whole))
         assert words in throng("apply", tmp_path / "street", "--overrides", path, "-o", tmp_path / "out",

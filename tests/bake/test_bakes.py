@@ -37,21 +37,77 @@ def write(path, layout):
     return path
 
 
+class Bodies:
+    """Everybody's outline in a bake: as thick round a segment across the chest as it is deep; of a disc a point."""
+
+    def __init__(self, bake):
+        self.data, rows = streams(bake), table(bake)
+        sides = [[float(row[name]) if row.get("breadth") else 2.0 * float(row["radius"]) for name in
+                  ("breadth", "depth")] for row in rows]
+        breadth, depth = numpy.array(sides).T
+        self.thickness, self.half = 0.5 * depth, 0.5 * (breadth - depth)
+        chest = bake / "streams" / "chest.npy"
+        self.twist = numpy.load(chest, mmap_mode="r")[..., 0] if chest.exists() else None
+
+    def segments(self, frame, who):
+        """The middles of these people's segments, and from there to their ends."""
+        facing = numpy.array(self.data["dir"][frame, who, :2])
+        angle = numpy.arctan2(facing[:, 1], facing[:, 0])
+        if self.twist is not None:
+            angle += self.twist[frame, who]
+        across = numpy.stack([-numpy.sin(angle), numpy.cos(angle)], axis=1)
+        return numpy.array(self.data["pos"][frame, who, :2]), across * self.half[who, None]
+
+
+def from_segment(point, middle, arm):
+    """How far points are from segments."""
+    length = (arm * arm).sum(axis=-1)
+    along = ((point - middle) * arm).sum(axis=-1) / numpy.maximum(length, 1e-12)
+    return numpy.linalg.norm(point - middle - numpy.clip(along, -1.0, 1.0)[..., None] * arm, axis=-1)
+
+
+def crossed(x, y):
+    return x[..., 0] * y[..., 1] - x[..., 1] * y[..., 0]
+
+
+def between_segments(middle, arm, other, its_arm):
+    """How far segments are from others, each given by its middle and the way from there to one end; 0: they cross."""
+    offset, turned = other - middle, crossed(arm, its_arm)
+    with numpy.errstate(divide="ignore", invalid="ignore"):
+        crosses = numpy.maximum(abs(crossed(offset, its_arm) / turned), abs(crossed(offset, arm) / turned)) <= 1.0
+    ends = [from_segment(middle + arm, other, its_arm), from_segment(middle - arm, other, its_arm),
+            from_segment(other + its_arm, middle, arm), from_segment(other - its_arm, middle, arm)]
+    return numpy.where(crosses, 0.0, numpy.min(ends, axis=0))
+
+
+def test_outlines_are_as_far_apart_as_they_are():
+    """What the tests below ask of bodies, on known answers."""
+    def far(*numbers):
+        return float(between_segments(*(numpy.array(pair, dtype=float) for pair in numbers)))
+
+    assert far((0, 0), (1, 0), (0, 3), (1, 0)) == 3  # side by side
+    assert far((0, 0), (1, 0), (4, 0), (1, 0)) == 2  # one after the other
+    assert far((0, 0), (1, 0), (0, 0), (0, 1)) == 0  # across each other
+    assert far((0, 0), (1, 0), (3, 0), (0, 1)) == 2
+    assert far((0, 0), (0, 0), (3, 4), (0, 0)) == 5  # discs
+    assert far((0, 0), (1, 0), (4, 4), (0, 0)) == 5
+
+
 def deepest_overlap(bake, stride=3):
-    """Percent of the sum of radii, over all frames looked at; and the mean number of pairs deeper than 1 %."""
-    data = streams(bake)
-    radius = numpy.array([float(row["radius"]) for row in table(bake)])
+    """Percent of the thickness of two, over all frames looked at; and the mean number of pairs deeper than 1 %."""
+    bodies = Bodies(bake)
+    furthest = 2.0 * float((bodies.thickness + bodies.half).max())
     worst, pairs, looked = 0.0, 0, 0
-    for frame in range(0, len(data["pos"]), stride):
-        alive = numpy.nonzero(data["state"][frame, :, 0] > 0.5)[0]
-        order = alive[numpy.argsort(data["pos"][frame, alive, 0])]
-        position, size = numpy.array(data["pos"][frame, order, :2]), radius[order]
+    for frame in range(0, len(bodies.data["pos"]), stride):
+        alive = numpy.nonzero(bodies.data["state"][frame, :, 0] > 0.5)[0]
+        order = alive[numpy.argsort(bodies.data["pos"][frame, alive, 0])]
+        (middle, arm), size = bodies.segments(frame, order), bodies.thickness[order]
         looked += 1
         for step in range(1, len(order)):
-            offset = position[step:] - position[:-step]
-            if offset[:, 0].min() > 2.0 * radius.max():
+            if (middle[step:, 0] - middle[:-step, 0]).min() > furthest:
                 break
-            depth = 1.0 - numpy.hypot(offset[:, 0], offset[:, 1]) / (size[step:] + size[:-step])
+            apart = between_segments(middle[:-step], arm[:-step], middle[step:], arm[step:])
+            depth = 1.0 - apart / (size[step:] + size[:-step])
             worst = max(worst, float(depth.max(initial=0.0)))
             pairs += int((depth > 0.01).sum())
     return 100.0 * worst, pairs / max(looked, 1)
@@ -60,8 +116,8 @@ def deepest_overlap(bake, stride=3):
 def crossings(bake, manifest):
     """How often a straight line between two frames of one person crosses a wall's axis or outline; and the deepest body
     in one (m)."""
-    data = streams(bake)
-    radius = numpy.array([float(row["radius"]) for row in table(bake)])
+    bodies = Bodies(bake)
+    data = bodies.data
     count, deepest = 0, -1.0
     for wall in manifest["geometry"]["walls"]:
         points = wall["points"] + (wall["points"][:1] if wall["closed"] else [])
@@ -80,9 +136,9 @@ def crossings(bake, manifest):
                     along = (at - a) @ axis / (axis @ axis)
                     count += int(((along >= 0.0) & (along <= 1.0)).sum())
                 if frame % 4 == 0 and len(q):
-                    along = numpy.clip((q - a) @ axis / (axis @ axis), 0.0, 1.0)
-                    distance = numpy.hypot(*(q - (a + along[:, None] * axis)).T)
-                    deepest = max(deepest, float((radius[alive] + half - distance).max()))
+                    middle, arm = bodies.segments(frame, alive)
+                    distance = between_segments(middle, arm, 0.5 * (a + b), 0.5 * axis)
+                    deepest = max(deepest, float((bodies.thickness[alive] + half - distance).max()))
     return count, deepest
 
 
@@ -153,7 +209,7 @@ def test_the_table_tells_profiles_and_looks(throng, tmp_path):
     often = Counter((row["group"], row["profile"], row["look"], row["colours"]) for row in rows)
     club = [often.pop(("club", profile, "fans", "#a01020 #ffffff")) for profile in ("adult", "child", "elderly")]
     assert often == {("ring", "", "casual", ""): 5} and sum(club) == 60 and club[0] > 20 and min(club) > 7, club
-    assert all((float(row["radius"]) < 0.21) == (row["profile"] == "child") for row in rows)
+    assert all((float(row["breadth"]) < 0.37) == (row["profile"] == "child") for row in rows)
 
 
 def test_the_manifest_lists_the_gaits_that_occur(bakes, manifest_of):

@@ -248,4 +248,4 @@ def test_too_few_pixels_for_a_body_are_warned_of(throng, tmp_path):
     layout = write(tmp_path / "small.json", SMALL)
     assert "pixels_per_metre" not in throng("check", layout).stderr
     told = throng("check", layout, "--set", "simulation.pixels_per_metre=2").stderr
-    assert "warning" in told and "0.44 pixels" in told and "pixels_per_metre" in told
+    assert "warning" in told and "0.39 pixels" in told and "pixels_per_metre" in told

@@ -21,7 +21,7 @@ from throng import formats as addon  # noqa: E402
 
 EXACT = ("npy", "pc2")
 FORMS = (*EXACT, "packed")
-STREAMS = ("pos", "dir", "state")
+STREAMS = ("pos", "dir", "state", "chest")
 ALL = (*STREAMS, "density", "wish", "left_foot", "right_foot", "carriage", "gaze", "attention")
 SUBSETS = [",".join(some) for count in (1, 2, 3) for some in itertools.combinations(FORMS, count)]
 

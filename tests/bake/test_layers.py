@@ -257,7 +257,7 @@ def test_feet_of_those_whose_way_is_bent_stay_planted(throng, street, tmp_path):
         (naive / "streams" / f"{name}.npy").write_bytes((street / "street" / "streams" / f"{name}.npy").read_bytes())
     kept = numpy.concatenate([slides_of(naive, row, 20, 95) for row in rows])
     share = lambda slides: (slides > 0.01).mean()
-    assert len(bent) > 300 and share(bent) < share(straight) + 0.01 and share(kept) > 10 * max(share(bent), 0.005)
+    assert len(bent) > 250 and share(bent) < share(straight) + 0.01 and share(kept) > 10 * max(share(bent), 0.005)
 
 
 def test_clips_and_looks_in_real_streams(throng, street, tmp_path):
@@ -294,7 +294,7 @@ def test_overlaps_that_changes_make_are_told(throng, street, tmp_path, manifest_
         "points": [{"frame": 60, "by": [float(by[0]), float(by[1])]}], "falloff": 40, "most_acceleration": 20}}))
     told = throng("apply", street / "street", "--overrides", path, "-o", tmp_path / "out", "-q").stdout
     overlaps = manifest_of(tmp_path / "out")["applied"]["overlaps"]
-    radii = [float(person["radius"]) for person in table(street / "street")]
+    depths = [float(person["depth"]) for person in table(street / "street")]
     found = [each for each in overlaps["deepest"] if each["rows"] == sorted((int(one), int(other)))]
-    assert found and found[0]["depth"] == pytest.approx(radii[one] + radii[other], abs=0.02)
+    assert found and found[0]["depth"] == pytest.approx(0.5 * (depths[one] + depths[other]), abs=0.02)
     assert found[0]["frames"][0] <= 60 <= found[0]["frames"][1] and f"{min(one, other)} and {max(one, other)}: " in told

@@ -60,7 +60,7 @@ def by_add_on(bake):
 
 @pytest.mark.quick
 def test_a_whole_bake_is_whole_and_lists_every_file(throng, baked, manifest_of):
-    assert "all 13 files" in throng("verify", baked).stdout and verified(throng, baked / "bake.json", 0) == {}
+    assert "all 15 files" in throng("verify", baked).stdout and verified(throng, baked / "bake.json", 0) == {}
     listed = {entry["path"] for entry in manifest_of(baked)["files"]}
     assert listed == {path.relative_to(baked).as_posix() for path in baked.rglob("*.*")} - {"bake.json"}
     assert by_add_on(baked) == set()

@@ -152,7 +152,7 @@ def cut(name, bytes_left):
     (manifest_with(table="../../secret.csv"), "outside the bake"),
     (manifest_with(agents=14), "expected 14"),
     (cut("streams/pos.npy", 5000), "cannot be read"),
-    (cut("agents.csv", 200), "expected 18 values"),
+    (cut("agents.csv", 200), "expected 20 values"),
     (lambda bake: (bake / "agents.csv").write_bytes(b"id\n\xff\n"), "cannot be read"),
 ], ids=["none", "cut", "version", "fps", "outside", "agents", "stream", "table", "bytes"])
 def test_what_is_no_bake_is_told(street, tmp_path, change, told):

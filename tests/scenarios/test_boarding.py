@@ -86,7 +86,7 @@ def test_nobody_is_run_over_and_everybody_is_accounted_for(throng, tmp_path):
 
 def test_who_does_not_fit_takes_the_next(throng, tmp_path):
     tram = {"times": [0, 50], "capacity": 30, "aboard": 20}
-    baked = Baked(throng, bake(throng, tmp_path / "full", stop(95, board=30, alight=5, tram=tram)))
+    baked = Baked(throng, bake(throng, tmp_path / "full", stop(100, board=30, alight=5, tram=tram)))
     first, second = baked.figures["calls"]
     assert (first["boarded"], first["aboard"]) == (15, 30)
     assert (second["boarded"], second["aboard"]) == (15, 30)

@@ -71,6 +71,6 @@ def test_wider_stairs_take_more_and_no_more_than_has_been_counted(throng, tmp_pa
 @pytest.mark.slow
 def test_who_walks_slower_takes_longer(speeds):
     slow, fast = speeds[0.8][2], speeds[1.3][2]
-    assert 1.2 < slow.max() / fast.max() < 1.3 / 0.8 + 0.1
+    assert 1.2 < numpy.median(slow) / numpy.median(fast) < 1.3 / 0.8 + 0.1
     # Nobody flies: 24 m of corridor and hall and two flights of 4.6 m in plan, at 0.69 m/s at most on those.
     assert fast[-80:].min() > 2 * 4.6 / 0.69 + 5.0 / 1.3

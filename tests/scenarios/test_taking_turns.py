@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A stream that presses through a door not much wider than a body gets out where people take turns."""
+"""A stream of discs that presses through a door not much wider than one gets out where people take turns; and how people
+with bodies, who stride, get through doors."""
 import json
 import pathlib
 import sys
@@ -16,7 +17,7 @@ SQUEEZE = {
     "areas": [{"id": "in", "polygon": [[-8, 0.1], [-6, 0.1], [-6, 1.7], [-8, 1.7]]},
               {"id": "out", "polygon": [[6, -1], [7, -1], [7, 2.8], [6, 2.8]]}],
     "walls": [{"points": [[4, 0.5], [4, 0], [-8.2, 0], [-8.2, 1.8], [4, 1.8], [4, 1.3]], "thickness": 0}],
-    "flows": [{"id": "f", "from": "in", "to": "out", "count": 70, "end": 35, "people": {}}],
+    "flows": [{"id": "f", "from": "in", "to": "out", "count": 70, "end": 35, "people": {"body": "disc"}}],
 }
 DOOR = numpy.array([4.0, 0.9])
 NEAR = 2.0  # m

@@ -59,7 +59,7 @@ def walled(mesh, way, given):
      "the doors of lift `lift` open onto no ground of level `deck` at [-2.05, 3.00]"),
     (fenced, "the doors of lift `lift` open into wall `fence` at level `street`"),
     (walled, "lift `lift` is in a wall of the terrain at [-2.20,"),
-    (lambda mesh, way, given: way.update(size=[0.8, 2], door_width=0.6), "has room for 3 of"),
+    (lambda mesh, way, given: way.update(size=[0.8, 2], door_width=0.6), "has room for 5 of"),
 ])
 def test_mistakes_are_told(throng, tmp_path, change, message):
     mesh = Mesh().parapets()

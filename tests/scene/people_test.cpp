@@ -28,23 +28,42 @@ Scene sceneOf(const std::string& rest) {
     return scene.value_or(Scene{});
 }
 
-TEST(Bodies, AreDiscsAsWideAsShouldersUnlessToldAndThatCanBeSaid) {
+TEST(Bodies, AreThoseOfEverybodysProfileUnlessToldOtherwise) {
+    const auto people = [](const std::string& who) {
+        return sceneOf(R"("flows": [{"id": "f", "from": "a", "to": "b", "count": 63)" + who + "}]}").people;
+    };
+    const std::vector<gpu::Person> nothing_said = people("");
+    const std::vector<gpu::Person> adults = people(R"(, "people": {"profile": "adult", "body": "adult"})");
+    const std::vector<gpu::Person> unsaid = people(R"(, "people": {"profile": "child"})");
+    const std::vector<gpu::Person> children = people(R"(, "people": {"profile": "child", "body": "profile"})");
+    ASSERT_EQ(nothing_said.size(), 63u);
+    for (std::size_t i = 0; i < nothing_said.size(); ++i) {
+        EXPECT_GT(nothing_said[i].half_axis, 0.0f);
+        EXPECT_EQ(nothing_said[i].half_axis, adults[i].half_axis);
+        EXPECT_EQ(nothing_said[i].radius, adults[i].radius);
+        EXPECT_GT(unsaid[i].half_axis, 0.0f);
+        EXPECT_EQ(unsaid[i].half_axis, children[i].half_axis);
+        EXPECT_LT(unsaid[i].half_axis + unsaid[i].radius, adults[i].half_axis + adults[i].radius);
+    }
+}
+
+TEST(Bodies, AreDiscsWhereARadiusIsGivenOrThatIsSaid) {
     const auto people = [](const std::string& who) {
         return sceneOf(R"("flows": [{"id": "f", "from": "a", "to": "b", "count": 63, "people": {)" + who +
                        "}}]}")
             .people;
     };
-    const std::vector<gpu::Person> unsaid = people(R"("profile": "child")");
     const std::vector<gpu::Person> said = people(R"("profile": "child", "body": "disc")");
-    const std::vector<gpu::Person> with_radius = people(R"("body": "disc", "radius": 0.31)");
-    const std::vector<gpu::Person> bodies = people(R"("profile": "child", "body": "profile")");
-    ASSERT_EQ(unsaid.size(), 63u);
-    for (std::size_t i = 0; i < unsaid.size(); ++i) {
-        EXPECT_EQ(unsaid[i].half_axis, 0.0f);
+    const std::vector<gpu::Person> given = people(R"("radius": 0.31)");
+    const std::vector<gpu::Person> both = people(R"("body": "disc", "radius": 0.31)");
+    ASSERT_EQ(said.size(), 63u);
+    for (std::size_t i = 0; i < said.size(); ++i) {
         EXPECT_EQ(said[i].half_axis, 0.0f);
-        EXPECT_EQ(said[i].radius, unsaid[i].radius);
-        EXPECT_EQ(with_radius[i].radius, 0.31f);
-        EXPECT_GT(bodies[i].half_axis, 0.0f);
+        EXPECT_EQ(given[i].half_axis, 0.0f);
+        EXPECT_EQ(both[i].half_axis, 0.0f);
+        EXPECT_TRUE(said[i].radius >= 0.15f && said[i].radius <= 0.2f);
+        EXPECT_EQ(given[i].radius, 0.31f);
+        EXPECT_EQ(both[i].radius, 0.31f);
     }
 }
 
