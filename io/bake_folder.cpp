@@ -56,9 +56,9 @@ void requireReplaceable(const fs::path& path) {
 
 /// A folder that happens to have the name of an unfinished bake must not be emptied.
 void requireOurs(const fs::path& folder) {
-    const std::set<std::string> ours = {"streams",    "diagrams",    "layout.json", "agents.csv",
-                                        "crowd.glb",  "terrain.glb", "bake.json",   kUnderWayFile,
-                                        kVehicleFile, kDoorFile,     kLiftFile};
+    const std::set<std::string> ours = {"streams",      "diagrams",    "layout.json", "agents.csv",
+                                        "crowd.glb",    "terrain.glb", "bake.json",   kUnderWayFile,
+                                        kUnderWayFresh, kVehicleFile,  kDoorFile,     kLiftFile};
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
         const std::string name = entry.path().filename().string();
         if (!ours.contains(name) && !isCheckpoint(entry.path()))

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
 #include <filesystem>
 #include <span>
 #include <stdexcept>
@@ -113,7 +115,15 @@ BakeWriter::BakeWriter(recording::BakeDescription description, std::unique_ptr<B
         shown_vehicles_.emplace(
             folder_->path() / kVehicleFile,
             TrackShape{description_.frames, description_.vehicles.size(), kVehicleFloats});
-    writeFile(folder_->path() / kUnderWayFile, underWayText(description_));
+    tellThatItIsUnderWay();
+}
+
+void BakeWriter::tellThatItIsUnderWay() const {
+    const std::filesystem::path path = folder_->path() / kUnderWayFile,
+                                fresh = folder_->path() / kUnderWayFresh;
+    removeFile(fresh);  // of a process that was killed
+    writeFile(fresh, underWayText(description_));
+    if (std::rename(fresh.c_str(), path.c_str()) != 0) throw OutputError(path, "replace", errno);
 }
 
 void BakeWriter::showVehicles(std::span<const float> track) {

@@ -16,6 +16,13 @@ constexpr float kSideReach = 0.15f;   // m
 constexpr double kSettling =
     0.25;  // s: who comes to a stand puts its feet beside each other with this time constant
 constexpr float kSteepest = 1.2f;
+constexpr float kHalfRiser = 0.125f;  // m: the smooth ground goes through the middle of risers
+
+/// What stairs and kerbs make of the ground over the smooth one. Beside a drop it is more, as the smooth
+/// ground bends down there: no foot takes that along to its next place.
+float ofSteps(float step) {
+    return glm::clamp(step, -kHalfRiser, kHalfRiser);
+}
 
 }  // namespace
 
@@ -48,14 +55,14 @@ Stance Footing::stand(std::size_t row, const Walker& walker, const GaitTrack& ga
     const bool stands = distance * fps_ < gpu::STANDING_SPEED;
     const bool is_new = feet.known == 0;
     if (is_new) {
-        feet.step_from = feet.step_to = step_here;
+        feet.step_from = feet.step_to = ofSteps(step_here);
         feet.standing = 1.0f;
         feet.known = 1;
     }
     if (is_new || std::floor(half_cycles) != feet.half_cycle) {
         const glm::vec2 way = stands ? heading : moved / distance;
         if (!is_new) feet.step_from = feet.step_to;
-        feet.step_to = stepAt(place + static_cast<float>((1.0 - between) * step_length) * way);
+        feet.step_to = ofSteps(stepAt(place + static_cast<float>((1.0 - between) * step_length) * way));
         feet.half_cycle = std::floor(half_cycles);
     }
     if (!is_new)
@@ -73,8 +80,9 @@ Stance Footing::stand(std::size_t row, const Walker& walker, const GaitTrack& ga
     const glm::vec2 standing =
         is_carried ? glm::vec2(0.0f) : glm::vec2(glm::dot(here.slope, heading), glm::dot(here.slope, left));
     const glm::vec2 slopes = glm::clamp(glm::mix(walking, standing, feet.standing), -kSteepest, kSteepest);
-    feet.stance = {smooth + glm::mix(walking_step, step_here, feet.standing), slopes.x, slopes.y,
-                   here.height};
+    const float of_the_drop = step_here - ofSteps(step_here);
+    feet.stance = {smooth + of_the_drop + glm::mix(walking_step, ofSteps(step_here), feet.standing), slopes.x,
+                   slopes.y, here.height};
     return feet.stance;
 }
 

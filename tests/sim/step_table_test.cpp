@@ -73,18 +73,21 @@ const std::string kEverything = R"({"throng": 1, "simulation": {"duration": 10, 
  "walls": [{"points": [[-3, -1], [3, -1]], "thickness": 0.3},
            {"id": "gate", "points": [[-6, -4], [-6, -1]]}],
  "events": [{"at": 0.2, "open": "gate"}],
- "flows": [{"id": "f", "from": "street:start", "to": "street:end", "count": 20, "end": 1},
+ "flows": [{"id": "f", "from": "street:start", "to": "street:end", "count": 20, "end": 1, "people": {"body": "disc"}},
            {"id": "g", "from": "street:end", "to": "street:start", "count": 10, "end": 1,
-            "via": [{"at": "stand", "activity": "queue", "line": [[3, 3], [-3, 3]], "wait": 1}]}]})";
+            "people": {"body": "disc"}, "via": [{"at": "stand", "activity": "queue", "line": [[3, 3], [-3, 3]], "wait": 1}]}]})";
 
 class StepTableTest : public GpuTest {
   protected:
     void SetUp() override {
         GpuTest::SetUp();
-        authoring::Diagnostics diagnostics;
-        const auto layout = authoring::readLayout(kEverything, {}, diagnostics);
-        scene = authoring::buildScene(layout.value(), diagnostics).value();
+        scene = sceneOf(kEverything);
         library.keepPrograms();
+    }
+    static authoring::Scene sceneOf(const std::string& text) {
+        authoring::Diagnostics diagnostics;
+        const auto layout = authoring::readLayout(text, {}, diagnostics);
+        return authoring::buildScene(layout.value(), diagnostics).value();
     }
     void TearDown() override {
         library = gl::ShaderLibrary();  // its programs go before the context
@@ -145,6 +148,22 @@ TEST_F(StepTableTest, HoldsForTheOtherWaysToFindNeighbours) {
         EXPECT_EQ(writtenForNobody(journal.commands(), made), Names{});
         EXPECT_EQ(readUnwritten(journal.commands()), Names{});
     }
+}
+
+TEST_F(StepTableTest, HoldsForPeopleWithBodies) {
+    std::string text = kEverything;
+    for (std::size_t at = 0; (at = text.find("disc", at)) != std::string::npos;)
+        text.replace(at, 4, "adult");
+    const authoring::Scene bodies = sceneOf(text);
+    const gl::Journal journal;
+    sim::Simulation simulation(bodies, library);
+    const std::size_t made = journal.commands().size();
+    for (int step = 0; step < 60; ++step)
+        simulation.step();
+    lookAtEverything(simulation);
+    EXPECT_EQ(writtenForNobody(journal.commands(), made), Names{});
+    // Rounds of contact are told of together: the first writes them, the others read.
+    EXPECT_EQ(readUnwritten(journal.commands()), Names{"near lists"});
 }
 
 TEST_F(StepTableTest, HoldsForTheOtherWaysToKeepADiagram) {
