@@ -68,7 +68,8 @@ def check(crowd, first, bake):
             found, rows = seen.at(frame)
             assert rows.tolist() == numpy.nonzero(there[frame])[0].tolist()
             # Who walks past the scene's end is seen at its edge.
-            baked = numpy.clip(places[frame, rows, :2], crowd.about["minimum"], crowd.about["maximum"])
+            least, most = numpy.array(crowd.about["minimum"]), 65535 * crowd.about["quantum"]
+            baked = numpy.clip(places[frame, rows, :2], least, least + most)
             assert numpy.abs(found[:, :2] - baked).max(initial=0.0) < 0.51 * crowd.about["quantum"]
     vehicles = numpy.load(bake / "vehicles.npy")
     for seen in (first, crowd):
