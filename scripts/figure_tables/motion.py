@@ -267,7 +267,7 @@ def rimea_rows(runs):
     return [
         ["rimea-1, one person, 40 m at 1.33 m/s", f"{alone['seconds']:.1f} s", "26 to 34 s"],
         [
-            "rimea-4, flow in a corridor at 0.5 / 1 / 2 / 3 persons per m^2, headway 0.18 s",
+            "rimea-4, flow of discs in a corridor at 0.5 / 1 / 2 / 3 persons per m^2, headway 0.18 s",
             f"{slashes([each.get('flow', 0.0) for each in densities], 2)} per s",
             "within 15 % of Weidmann 1993: 2.75 / 4.23 / 5.14 / 4.01",
         ],
@@ -278,7 +278,7 @@ def rimea_rows(runs):
             "nobody in a wall by 1 mm",
         ],
         [
-            "rimea-9, 1,000 people, room with four exits of 1 m and with two",
+            "rimea-9, 1,000 adults as they come, room with four exits of 1 m and with two",
             f"{four['seconds']:.0f} and {two['seconds']:.0f} s: {two['seconds'] / four['seconds']:.2f} times",
             "all leave, in 1.6 to 2.4 times the time",
         ],
@@ -288,8 +288,8 @@ def rimea_rows(runs):
             "everybody takes it",
         ],
         [
-            "rimea-11, 1,000 people at one end of a room with two doors of 1 m",
-            f"{nearer['further']} take the further one, {nearer['seconds']:.0f} s",
+            "rimea-11, 1,000 adults as they come, most of them at one end of a room with two doors of 1 m",
+            f"{nearer['further']} take the one that was further from where they began, {nearer['seconds']:.0f} s",
             "most take the nearer one, some the other",
         ],
     ]
@@ -311,12 +311,12 @@ def imo_rows(runs):
     longer = sum(list(times) == sorted(times) for times in zip(*against))
     return [
         [
-            f"imo-4, 100 people as wide as their shoulders, door of 1 m, headway 0.1 s, {seeds_of(flows)}",
+            f"imo-4, 100 discs as wide as shoulders, door of 1 m, headway 0.13 s, {seeds_of(flows)}",
             f"{span_of(flows, 2)} per s ({sum(flows) / len(flows):.2f} on average)",
             "at most 1.33 per s on average",
         ],
         [
-            f"imo-8, 100 people against 0 / 10 / 50 / 100 in a corridor 2 m wide, {seeds_of(flows)}",
+            f"imo-8, 100 discs against 0 / 10 / 50 / 100 in a corridor 2 m wide, {seeds_of(flows)}",
             f"{slashes([sum(times) / len(times) for times in against], 0)} s on average; {longer} of {len(flows)} hold",
             "more take longer",
         ],
@@ -338,7 +338,7 @@ def bottleneck_rows(runs):
         found = [each["flow"] for each in each_seed(runs, name, SEEDS)]
         bar = runs.layout(name)["expect"]["flow"]
         yield [
-            f"bottleneck of {width}, 100 adults, headway 0.09 s, radius 0.17 to 0.21 m, {seeds_of(found)}",
+            f"bottleneck of {width}, 100 adults as they come, {seeds_of(found)}",
             f"{span_of(found, 2)} per s ({sum(found) / len(found):.2f} on average)",
             f"Kretz, Gruenebohm and Schreckenberg 2006 within 15 %: {bar['min']:.2f} to {bar['max']:.2f}",
         ]

@@ -6,7 +6,7 @@ import json
 
 import numpy
 
-FURTHER_DOOR = 15.0  # m: rimea-11's crowd starts west of it
+MIDDLE = 15.0  # m: between rimea-11's doors
 WEIDMANN = (1.34, 1.913, 5.4)  # m/s, 1/m^2, 1/m^2: free speed, gauge, density at standstill
 STRETCH = (45.0, 65.0)  # m along rimea-4's corridors
 HALF_STREET = 15.0  # m: half the width of the crossing's streets
@@ -23,8 +23,9 @@ def stream(bake, name):
 
 
 def further_door(bake):
-    """How many of rimea-11 leave by the door that is further away."""
-    return {"further": int((stream(bake, "pos")[-1][:, 0] > FURTHER_DOOR).sum())}
+    """How many of rimea-11 leave by the door that is further from where they began."""
+    ways = stream(bake, "pos")[:, :, 0]
+    return {"further": int(((ways[0] > MIDDLE) != (ways[-1] > MIDDLE)).sum())}
 
 
 def own_exits(bake):

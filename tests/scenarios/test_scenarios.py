@@ -192,14 +192,14 @@ def test_doors_are_as_wide_as_they_are_said_to_be(throng, tmp_path, name, width,
 
 
 def test_a_door_of_a_metre_lets_at_most_four_in_three_seconds_through(throng, tmp_path):
-    """IMO test 4: 1.33 per second at most, on average over eight crowds; single ones are above it now and then."""
+    """IMO test 4: 1.33 per second at most, each of eight crowds; of discs with a headway, as people let more through."""
     flows = []
     for seed in range(1, 9):
         figures = json.loads(throng("scenarios", "--run", "imo-4", "--json", "-o", tmp_path, "--set",
                                     f"simulation.seed={seed}", expect=None).stdout)
         assert figures["arrived"] == 100
         flows.append(figures["flow"])
-    assert numpy.mean(flows) <= 1.33, flows
+    assert max(flows) <= 1.33, flows
 
 
 def test_wider_doors_let_more_people_through(scenario):
