@@ -252,7 +252,7 @@ def test_fields_solved_on_the_device_lead_the_same_ways(throng, tmp_path, manife
                         {"points": [[20, 9], [10, 9]], "thickness": 0.3}],
               "areas": [{"id": "goal", "polygon": [[30, -6], [34, -6], [34, -2], [30, -2]]}],
               "formations": [{"id": "some", "type": "grid", "origin": [12, -4], "rows": 3, "columns": 3,
-                              "goal": "goal"}]}
+                              "goal": "goal", "people": {"body": "disc"}}]}
     layout = write(tmp_path / "detour.json", detour)
     for where in ("cpu", "gpu", "auto"):
         throng("bake", layout, "-o", tmp_path / where, "-q", "--no-gltf", "--fields", where)

@@ -73,9 +73,11 @@ const std::string kEverything = R"({"throng": 1, "simulation": {"duration": 10, 
  "walls": [{"points": [[-3, -1], [3, -1]], "thickness": 0.3},
            {"id": "gate", "points": [[-6, -4], [-6, -1]]}],
  "events": [{"at": 0.2, "open": "gate"}],
- "flows": [{"id": "f", "from": "street:start", "to": "street:end", "count": 20, "end": 1, "people": {"body": "disc"}},
+ "flows": [{"id": "f", "from": "street:start", "to": "street:end", "count": 20, "end": 1,
+            "people": {"body": "disc"}},
            {"id": "g", "from": "street:end", "to": "street:start", "count": 10, "end": 1,
-            "people": {"body": "disc"}, "via": [{"at": "stand", "activity": "queue", "line": [[3, 3], [-3, 3]], "wait": 1}]}]})";
+            "people": {"body": "disc"},
+            "via": [{"at": "stand", "activity": "queue", "line": [[3, 3], [-3, 3]], "wait": 1}]}]})";
 
 class StepTableTest : public GpuTest {
   protected:
