@@ -89,7 +89,7 @@ def memory(passes):
     lines += [f"| {name} | {size} | {', '.join(touching)} |" for name, (size, touching) in buffers]
     together = sum(size for _, (size, _) in buffers)
     return ("## What a person takes\n\nBuffers with an element for each person (who has a body; of discs fewer), "
-            f"{together} bytes together. Besides, a person has 48 bytes\nfor each stage of its way, 36 for each of the "
+            f"{together} bytes together. Besides, a person has 48\nbytes for each stage of its way, 36 for each of the "
             "frames that are on their way to the disk\n(three, or two of 16,384 people and more), and its part of the "
             "ground: 8 bytes a cell, 4 to 16 a pixel of the diagram.\n`throng check` tells what a layout takes in "
             "all.\n\n"
