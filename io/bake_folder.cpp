@@ -56,12 +56,12 @@ void requireReplaceable(const fs::path& path) {
 
 /// A folder that happens to have the name of an unfinished bake must not be emptied.
 void requireOurs(const fs::path& folder) {
-    const std::set<std::string> ours = {"streams",      "diagrams",    "layout.json", "agents.csv",
-                                        "crowd.glb",    "terrain.glb", "bake.json",   kUnderWayFile,
-                                        kUnderWayFresh, kVehicleFile,  kDoorFile,     kLiftFile};
+    const std::set<std::string> ours = {"streams",     "diagrams",  "layout.json", "agents.csv", "crowd.glb",
+                                        "terrain.glb", "bake.json", kVehicleFile,  kDoorFile,    kLiftFile};
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
         const std::string name = entry.path().filename().string();
-        if (!ours.contains(name) && !isCheckpoint(entry.path()))
+        const bool tells_of_it = name.starts_with(kUnderWayFile);  // or began to, and was killed
+        if (!ours.contains(name) && !tells_of_it && !isCheckpoint(entry.path()))
             throw OutputError(folder, "is there and has something else than a bake in it (" + name +
                                           "); it will not be touched");
     }

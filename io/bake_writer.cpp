@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
 #include <filesystem>
 #include <span>
 #include <stdexcept>
@@ -115,15 +113,7 @@ BakeWriter::BakeWriter(recording::BakeDescription description, std::unique_ptr<B
         shown_vehicles_.emplace(
             folder_->path() / kVehicleFile,
             TrackShape{description_.frames, description_.vehicles.size(), kVehicleFloats});
-    tellThatItIsUnderWay();
-}
-
-void BakeWriter::tellThatItIsUnderWay() const {
-    const std::filesystem::path path = folder_->path() / kUnderWayFile,
-                                fresh = folder_->path() / kUnderWayFresh;
-    removeFile(fresh);  // of a process that was killed
-    writeFile(fresh, underWayText(description_));
-    if (std::rename(fresh.c_str(), path.c_str()) != 0) throw OutputError(path, "replace", errno);
+    replaceFile(folder_->path() / kUnderWayFile, underWayText(description_));  // nobody may see half of it
 }
 
 void BakeWriter::showVehicles(std::span<const float> track) {

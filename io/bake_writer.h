@@ -81,7 +81,6 @@ class BakeWriter {
     std::vector<std::string> diagramNames(std::uint32_t frame) const;
     void addHashes(Checkpoint& checkpoint) const;
     void removeLeftovers(const Checkpoint& checkpoint) const;
-    void tellThatItIsUnderWay() const;
     void trackPeople(const Frame& frame);
     std::span<const float> placed(std::span<const float> places);
     BakeOutcome writeAll(const Account& account, const BakeTiming& timing, bool complete);

@@ -13,8 +13,6 @@ namespace throng::io {
 /// Beside the streams of a bake under way: what they are of, for those who look on while they grow. It goes
 /// when the bake is completed.
 inline constexpr const char* kUnderWayFile = "under-way.json";
-/// While it is written: nobody may see half of it.
-inline constexpr const char* kUnderWayFresh = "under-way.json.new";
 
 /// A bake before it is one: all that its bake.json will say of the place and the time, with as many frames as
 /// are expected, and of its people their groups and sizes.

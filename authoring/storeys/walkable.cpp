@@ -7,12 +7,12 @@
 #include <stdexcept>
 
 #include "authoring/storeys/chart_raster.h"
+#include "shaders/shared/terrain_types.h"
 
 namespace throng::authoring {
 namespace {
 
 constexpr float kOverHead = 2.0f;  // m: over what people walk on
-constexpr float kSteepest = 1.0f;  // rise over run: 45 degrees
 constexpr float kStep = 0.25f;     // m
 constexpr float kHair = 1.0e-3f;   // m and rise over run, of rounding
 constexpr std::size_t kMostSpots = 6'000'000;
@@ -72,7 +72,7 @@ const std::vector<float>& Walkable::heightsAt(glm::vec2 at) const {
     hits_.clear();
     heights_.clear();
     faces_.visitHits(at, [&](const TerrainTriangle& t, float height) {
-        const bool carries = t.area() > 0.0f && glm::length(t.slope()) < kSteepest + kHair;
+        const bool carries = t.area() > 0.0f && glm::length(t.slope()) < gpu::STEEPEST_GROUND + kHair;
         hits_.push_back({height, carries});
     });
     std::sort(hits_.begin(), hits_.end(), [](const Hit& a, const Hit& b) { return a.height < b.height; });

@@ -23,17 +23,16 @@ struct Incline {
     bool is_belt;
 };
 
-/// How much the ground at a position is stairs, 0 to 1.
-float stairsAt(vec2 position) {
-    return smoothstep(SLOPE_PACE_STAIRS_BEGIN, SLOPE_PACE_STAIRS_COMPLETE, smoothGround(position).y);
-}
+/// How much of the smooth ground at a position is stairs, 0 to 1.
+float stairsOf(vec2 ground) { return smoothstep(SLOPE_PACE_STAIRS_BEGIN, SLOPE_PACE_STAIRS_COMPLETE, ground.y); }
 
 bool mostlyStairs(float stairs) { return stairs >= 0.5; }
 
-Incline inclineAt(vec2 position, vec2 direction) {
+/// @param ground the smooth one at the position
+Incline inclineAt(vec2 position, vec2 direction, vec2 ground) {
     Incline incline;
-    incline.slope = smoothSlope(position, direction, SLOPE_PACE_REACH);
-    incline.stairs = stairsAt(position);
+    incline.slope = smoothSlope(position, direction, SLOPE_PACE_REACH, ground.x);
+    incline.stairs = stairsOf(ground);
     incline.is_belt = false;
 #ifdef BELTS
     uint chart = chartOf(chartCellAt(position));

@@ -65,7 +65,8 @@ void main() {
     bool narrow = (touch_words[slot] & TOUCH_IN_NARROWS) != 0u;
     bool on_stairs = false;
 #ifdef TERRAIN
-    on_stairs = mostlyStairs(stairsAt(position));
+    vec2 ground = smoothGround(position);
+    on_stairs = mostlyStairs(stairsOf(ground));
 #endif
     RouteAhead ahead = wayAhead(stage, position, bodies[slot].velocity, neighbour_counts[slot], walker.nervousness,
                                 heedsJams(walker, narrow, on_stairs));
@@ -89,7 +90,7 @@ void main() {
 
     float speed = walker.preferred_speed;
 #ifdef TERRAIN
-    Incline incline = inclineAt(position, direction);
+    Incline incline = inclineAt(position, direction, ground);
     walkers[slot].flags |= climbingFlags(incline);
     speed *= paceOn(incline);
 #endif

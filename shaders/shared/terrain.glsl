@@ -20,16 +20,14 @@ vec2 smoothGround(vec2 position) {
                mix(vec2(n01.height, n01.steps), vec2(n11.height, n11.steps), f.x), f.y);
 }
 
-const float STEEPEST = 1.0;  // rise over run: nobody walks on steeper ground (authoring/storeys/walkable.h)
-
 /// Rise over run in a direction, from `reach` behind to `reach` ahead (m). Where the ground ends on one side, over a
 /// drop, only the other counts: who walks away from an edge climbs no cliff.
-float smoothSlope(vec2 position, vec2 direction, float reach) {
+/// @param here m: the height of the smooth ground at the position
+float smoothSlope(vec2 position, vec2 direction, float reach, float here) {
     float ahead = smoothGround(position + reach * direction).x, behind = smoothGround(position - reach * direction).x;
     float slope = (ahead - behind) / (2.0 * reach);
-    if (abs(slope) <= STEEPEST) return slope;
-    float here = smoothGround(position).x;
+    if (abs(slope) <= STEEPEST_GROUND) return slope;
     vec2 sides = vec2(ahead - here, here - behind) / reach;
     float gentler = abs(sides.x) < abs(sides.y) ? sides.x : sides.y;
-    return abs(gentler) <= STEEPEST ? gentler : 0.0;
+    return abs(gentler) <= STEEPEST_GROUND ? gentler : 0.0;
 }

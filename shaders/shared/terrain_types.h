@@ -7,6 +7,8 @@
 
 THRONG_SHARED_BEGIN
 
+const float STEEPEST_GROUND = 1.0f;  // rise over run: 45 degrees; nobody walks on steeper ground
+
 /// The ground without its steps, on a lattice.
 struct TerrainNode {
     float height;  // m
