@@ -39,12 +39,20 @@ void checkRequest(const io::Bake& bake, const FollowRequest& request) {
             "--to", fmt::format("{} s is not after {} s, where it begins", request.to, request.from));
 }
 
+/// The ground that a bake has is in the world's coordinates; the file that its layout names may be gone.
+std::vector<std::string> itsTerrain(const io::Bake& bake) {
+    if (!std::filesystem::exists(bake.folder / "terrain.glb")) return {};
+    return {"terrain.file=terrain.glb", "terrain.node=terrain", "terrain.scale=1",
+            "terrain.offset=[0, 0, 0]"};
+}
+
 LoadedLayout layoutOf(const io::Bake& bake, const FollowRequest& request) {
     const std::filesystem::path path = bake.folder / "layout.json";
     if (!std::filesystem::exists(path))
         throw InputError(bake.folder, "has no layout.json, which --follow simulates anew");
-    LoadedLayout loaded = loadLayout(
-        path.string(), {}, [&] { return makeDeviceFields(FieldsBy::automatic, request.device, ""); });
+    LoadedLayout loaded = loadLayout(path.string(), itsTerrain(bake), [&] {
+        return makeDeviceFields(FieldsBy::automatic, request.device, "");
+    });
     const std::size_t walkers = loaded.scene.people.size();
     const std::size_t people = walkers + authoring::audienceOf(loaded.layout).size();
     if (people != bake.agents)

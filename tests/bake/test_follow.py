@@ -203,3 +203,21 @@ def test_people_are_followed_from_storey_to_storey(throng, tmp_path, manifest_of
     told_of = {(line["rule"], line["row"]) for line in influences
                if abs(float(line["after_x"]) - float(line["before_x"])) > 0.2}
     assert ("maximum_speed", str(rows["ride"])) not in told_of
+
+
+def test_on_a_terrain_people_are_followed_over_the_ground_that_the_bake_has(throng, tmp_path):
+    """Far from the origin, and without the file that the layout names."""
+    given = tmp_path / "given"
+    given.mkdir()
+    layout = json.loads((ROOT / "examples" / "hill.json").read_text())
+    for road in layout["roads"]:
+        road["centreline"] = [[x + 40000, y - 2000] for x, y in road["centreline"]]
+    del layout["$schema"]
+    layout |= {"simulation": {"duration": 6, "warmup": 10, "seed": 11},
+               "terrain": {"file": "hill.glb", "offset": [40000, -2000, 0]}}
+    (given / "hill.json").write_text(json.dumps(layout))
+    shutil.copy(ROOT / "examples" / "hill.glb", given)
+    throng("bake", given / "hill.json", "-o", tmp_path / "bake", "-q", "--no-gltf")
+    shutil.rmtree(given)
+    told = json.loads(throng("measure", tmp_path / "bake", "--follow", 0, "--json").stdout)
+    assert told["furthest_off"] < 0.2
