@@ -25,8 +25,8 @@ SCHEMA = ROOT / "authoring" / "layout" / "throng-layout.schema.json"
 
 # What a layout has to have for a rule to have anything to do.
 NEEDS = {"company": '"groups"', "waiting_for_company": '"groups"', "headway": '"headway"', "kerb": '"roads"',
-         "slope_pace": '"terrain"', "riding": '"walking"', "climbing": '"stairs"', "shoulders": '"body"',
-         "room_to_stride": '"body"', "at_rest": '"wait"', "routes_round_jams": "", "contact_momentum": ""}
+         "slope_pace": '"terrain"', "riding": '"walking"', "climbing": '"stairs"', "at_rest": '"wait"', "routes_round_jams": "", "contact_momentum": ""}
+FOR_BODIES = {"shoulders", "room_to_stride"}
 
 # Beside one rule after the other: name for --only -> (what the table calls it, settings).
 TOGETHER = {
@@ -59,10 +59,18 @@ def layout_of(scenario):
     return next((file for file in known if file.exists()), pathlib.Path(scenario))
 
 
+def has_bodies(text):
+    """Whether anybody in a layout has a body: whoever is given neither a radius nor a disc."""
+    layout = json.loads(text)
+    everybody = [each.get("people", {}) for kind in ("flows", "formations") for each in layout.get(kind, [])]
+    return any("radius" not in people and people.get("body") != "disc" for people in everybody)
+
+
 def chosen(layout, only):
     text = layout.read_text()
+    bodies = has_bodies(text)
     return {name: variant for name, variant in variants().items()
-            if (name in only if only else NEEDS.get(name, "") in text)}
+            if (name in only if only else NEEDS.get(name, "") in text and (bodies or name not in FOR_BODIES))}
 
 
 def hash_of(*things):

@@ -44,7 +44,6 @@ def door_for_bodies(folder):
     layout = json.loads((SCRIPT.parents[1] / "scenarios" / "trap-narrow-door.json").read_text())
     people = layout["formations"][0]["people"]
     del people["radius"], layout["$schema"]
-    people["body"] = "adult"
     (folder / "bodies.json").write_text(json.dumps(layout))
     return str(folder / "bodies.json")
 
@@ -75,6 +74,15 @@ def test_every_switch_of_a_rule_changes_what_people_do_somewhere(tmp_path):
         if names:
             left -= seen_at_work(tmp_path / f"at {pathlib.Path(scenario).stem}", scenario, seconds, names)
     assert left == set()
+
+
+@pytest.mark.parametrize("people, looked_at", [({}, True), ({"body": "adult"}, True), ({"body": "disc"}, False),
+                                               ({"radius": 0.3}, False)])
+def test_rules_of_bodies_are_looked_at_where_there_are_any(tmp_path, people, looked_at):
+    module = ablate_module()
+    file = tmp_path / "layout.json"
+    file.write_text(json.dumps({"flows": [{"people": {"radius": 0.2}}, {"people": people}]}))
+    assert module.FOR_BODIES & set(module.chosen(file, [])) == (module.FOR_BODIES if looked_at else set())
 
 
 def test_nothing_is_measured_twice(tmp_path):
