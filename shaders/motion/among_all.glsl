@@ -5,29 +5,40 @@
 #include "shaders/motion/room.glsl"
 #include "shaders/motion/headway_in_peace.glsl"
 #include "shaders/motion/room_to_stride.glsl"
+#include "shaders/motion/taking_turns.glsl"
 
 uint neighbourKey(uint slot, uint nth) { return neighbours[nth * slot_capacity + slot]; }
 
 #ifdef BODIES
-/// m/s: how fast somebody with a body wants to stride behind those ahead, if it may.
-/// @param strides receives whether it does: everybody sensed goes its way, or through the same narrow passage
-float paceStridingAmongAll(Body self, Walker walker, vec2 way, float speed, uint slot, out bool strides) {
-    strides = ROOM_TO_STRIDE_ENABLED && hasBody(walker) && speed > STANDING_SPEED;
+/// How somebody with a body walks behind those ahead.
+struct Striding {
+    float pace;    // m/s
+    bool strides;  // it may keep room to stride: all those ahead go its way, or through the same narrow passage
+    bool is_met;   // somebody ahead wants to get to where it comes from
+};
+
+Striding strideAmongAll(Body self, Walker walker, vec2 way, float speed, uint slot) {
+    bool has_body = hasBody(walker);
+    Striding found = Striding(speed, ROOM_TO_STRIDE_ENABLED && has_body && speed > STANDING_SPEED, false);
     // Two who stand on both sides of a door walk towards each other first, and yet go one way (climbsInTurn).
     bool is_in_narrows = (touch_words[slot] & TOUCH_IN_NARROWS) != 0u;
-    float pace = speed;
     vec2 own = extentsAlong(way, self.radius, axis_of_self);
     for (uint i = 0u; i < neighbour_counts[slot]; ++i) {
         uint key = neighbourKey(slot, i);
         if ((key & NEIGHBOUR_IS_WALL) != 0u) continue;
-        vec2 wish = preferred_velocities[key];
+        Walker other = walkers[key];
+        vec2 offset = bodies[key].position - self.position, wish = preferred_velocities[key];
         float alike = likeness(way, wish);
-        strides = strides && (is_in_narrows || isPeaceful(alike));
-        vec2 extents = own + extentsAlong(way, bodies[key].radius, vec2(walkers[key].axis_x, walkers[key].axis_y));
-        pace = min(pace, paceStriding(way, speed, bodies[key].position - self.position, extents, self.velocity,
-                                      bodies[key].velocity, wish, alike));
+        if (dot(offset, way) > 0.0) {
+            found.strides = found.strides && (is_in_narrows || isPeaceful(alike));
+            found.is_met = found.is_met || has_body && length(wish) > STANDING_SPEED &&
+                                               isOncoming(walker.way_through, other.way_through);
+        }
+        vec2 extents = own + extentsAlong(way, bodies[key].radius, vec2(other.axis_x, other.axis_y));
+        found.pace = min(found.pace, paceStriding(way, speed, offset, extents, self.velocity, bodies[key].velocity,
+                                                  wish, alike));
     }
-    return pace;
+    return found;
 }
 #endif
 

@@ -43,7 +43,6 @@ uniform uint slot_capacity;
 #include "shaders/motion/half_width.glsl"
 #include "shaders/motion/drive.glsl"
 #include "shaders/motion/among_all.glsl"
-#include "shaders/motion/taking_turns.glsl"
 #include "shaders/motion/walls_ahead.glsl"
 #include "shaders/motion/kerb.glsl"
 #include "shaders/motion/company.glsl"
@@ -132,11 +131,13 @@ void main() {
     kept = max(kept, headwayBeforeBelt(walker.flags));
 #endif
     float pace = paceAmongAll(self, slot, way, speed, kept);
-    bool strides = false;
+    bool strides = false, is_met = false;
 #ifdef BODIES
     if (!climbs && kept <= 0.0) {
-        float striding = paceStridingAmongAll(self, walker, way, speed, slot, strides);
-        if (strides) pace = striding;
+        Striding found = strideAmongAll(self, walker, way, speed, slot);
+        strides = found.strides;
+        is_met = found.is_met;
+        if (strides) pace = found.pace;
     }
 #endif
     bool follows = strides || headway > 0.0;
@@ -149,7 +150,7 @@ void main() {
     if (isHeld(walker.flags)) impatience = 0.0;
 #endif
     Manners manners = Manners(way, impatience, crowdingAmong(neighbour_counts[slot]), follows ? 1.0 : 0.0,
-                              freedomAt(pace / max(speed, STANDING_SPEED)));
+                              freedomAt(pace / max(speed, STANDING_SPEED)), is_met ? 1.0 : 0.0);
     float in_peace = HEADWAY_IN_PEACE_ENABLED && !follows ? headwayInPeace(impatience) : 0.0;
     Surroundings around = lookAround(self, slot, wish, speed, in_peace, manners);
     if (around.in_peace) pace = min(pace, around.pace);

@@ -5,6 +5,10 @@
 // never gets through, and everybody behind stops too: opposing streams freeze at the line where they meet. So nobody
 // brakes for oncoming people, who is held up grows impatient and makes less room, and in a crowd nobody swerves for
 // those who cross.
+//
+// Room along one's way is made by hurrying, too, for whoever comes up from behind. Where streams of people with bodies
+// meet, nobody does: each row would drive the one before it through the others, and streams would pass each other
+// faster by a third than people's do (Zhang and others 2012).
 // Needs the block ParametersBlock and shaders/shared/at_most.glsl.
 #include "shaders/motion/walking_behind.glsl"
 #include "shaders/motion/room_by_time_to_collision.glsl"
@@ -23,6 +27,7 @@ struct Manners {
     float crowding;    // 0 to 1
     float follows;     // 1 where it was given a headway, 0 where it pushes on
     float freedom;     // 0 to 1: how little those ahead hold it up
+    float unhurried;   // 1 where one has a body and somebody ahead comes the other way, else 0
 };
 
 /// The acceleration, m/s^2, that makes room for somebody who wants to go `wish` (m/s).
@@ -42,6 +47,7 @@ vec2 roomFor(Manners manners, vec2 offset, vec2 relative, vec2 overtaking, float
     vec2 aside = (room - manners.way * along) * mix(swerve, 1.0, oncoming);
     if (PASSING_SIDE_ENABLED) aside += passingSide(manners.way, oncoming, room);
     along *= 1.0 - behind;
+    if (along > 0.0) along *= 1.0 - followed(alike) * manners.unhurried;
     if (along < 0.0) along *= 1.0 - max(unbraked(oncoming), manners.impatience);
     return manners.way * along + aside + touch;
 }

@@ -13,7 +13,8 @@
 // nothing; at a door, where those before walk off, it is most: people go through as the one before walks off, not when
 // it is gone. Who strides so does not press, and needs no turns (shaders/motion/taking_turns.glsl).
 //
-// Where streams meet nobody strides: room kept there is only given away to those who come across.
+// Where streams meet nobody strides: room kept there is only given away to those who come across. Who has passed
+// disturbs nobody any more.
 // Needs shaders/motion/walking_behind.glsl and shaders/shared/body_shape.glsl.
 
 #ifdef BODIES
