@@ -86,6 +86,39 @@ def corridor_with_door(people):
         "expect": {"line": [[0, -0.35], [0, 0.35]]}}
 
 
+def people_against_people(width, people):
+    """About 150 come through an entrance of `width` at either end of a corridor, 8 m long and 3.6 m wide, all at once,
+    and leave it to both sides: BOT-360 of the experiments in Duesseldorf, 2009 (Zhang and others 2012)."""
+    speed = {"normal": [1.55, 0.18], "min": 1.0, "max": 2.1}
+    half, walls, areas, formations = 0.5 * width, [], [], []
+    for x in (-1, 1):
+        walls.append({"points": [[x * 6.5, half], [x * 6.5, 8], [x * 19.5, 8], [x * 19.5, -8], [x * 6.5, -8],
+                                 [x * 6.5, -half]], "thickness": 0.1})  # a hall, and its entrance
+        for y in (-1, 1):
+            walls.append({"points": [[x * 6.5, y * 8], [x * 4, y * 8], [x * 4, y * 1.85], [0, y * 1.85]],
+                          "thickness": 0.1})
+            areas.append({"id": f"out{x}{y}", "polygon": box(x * 4.3, y * 4.2, x * 6.2, y * 6.5)})
+        formations.append({"id": "east" if x < 0 else "west", "type": "grid", "origin": [x * 7.5, x * -3.575],
+                           "rotation": 0 if x > 0 else 180, "rows": 14, "columns": 11, "spacing": 0.55, "jitter": 0.02,
+                           "goal": {"nearest": [f"out{-x}{y}" for y in (-1, 1)]}, "arrival": "leave",
+                           "people": {**people, "speed": speed}})
+    return {"throng": 1, "simulation": {"duration": 110, "fps": 24, "substeps": 2}, "walls": walls, "areas": areas,
+            "formations": formations}
+
+
+def through_the_middle(bake, measured):
+    """persons/(s m) through a line across the middle of a corridor 3.6 m wide, from the first to the last."""
+    about = json.loads((bake / "bake.json").read_text())
+    x = reading.stream(bake, "pos")[:, :, 0] + about["origin"][0]
+    there = reading.stream(bake, "state")[:, :, 0] > 0.5
+    east = x[0] < 0.0
+    beyond = numpy.where(east, x, -x) > 0.0
+    times = (beyond & there).argmax(axis=0)[(beyond & there).any(axis=0)]
+    if len(times) < 0.95 * len(east):
+        return 0.0  # stuck
+    return len(times) / (times.max() - times.min()) * about["fps"] / 3.6
+
+
 def flow_of(bake, measured):
     return measured.get("flow", 0.0)
 
@@ -140,6 +173,10 @@ def cases(people):
         found[f"rimea-4-{name}"] = Case(
             f"{int(name) / 100:g} per m^2 in a corridor: speed over Weidmann's 1993",
             scenario(f"rimea-4-{name}", people), share_of_weidmann, 0.8, 1.2)
+    for width, flow in ((1.6, 1.22), (2.0, 1.25)):
+        found[f"two-ways-{round(100 * width)}"] = Case(
+            f"two ways in a corridor of 3.6 m from entrances of {width} m, per s and m (Zhang and others 2012)",
+            people_against_people(width, people), through_the_middle, 0.8 * flow, 1.2 * flow)
     found["density"] = Case("at a door of 0.8 m, persons/m^2 within 1.5 m", found["kretz-080"].layout, crowd_before,
                             3.0, 6.0, 1)
     return found
