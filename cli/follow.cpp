@@ -39,9 +39,10 @@ void checkRequest(const io::Bake& bake, const FollowRequest& request) {
             "--to", fmt::format("{} s is not after {} s, where it begins", request.to, request.from));
 }
 
-/// The ground that a bake has is in the world's coordinates; the file that its layout names may be gone.
+/// The ground that a bake has is in the world's coordinates; the file that its layout names may be gone. That
+/// of storeys is what their floors and links make of it.
 std::vector<std::string> itsTerrain(const io::Bake& bake) {
-    if (!std::filesystem::exists(bake.folder / "terrain.glb")) return {};
+    if (bake.hasStoreys() || !std::filesystem::exists(bake.folder / "terrain.glb")) return {};
     return {"terrain.file=terrain.glb", "terrain.node=terrain", "terrain.scale=1",
             "terrain.offset=[0, 0, 0]"};
 }

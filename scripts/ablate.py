@@ -25,7 +25,8 @@ SCHEMA = ROOT / "authoring" / "layout" / "throng-layout.schema.json"
 
 # What a layout has to have for a rule to have anything to do.
 NEEDS = {"company": '"groups"', "waiting_for_company": '"groups"', "headway": '"headway"', "kerb": '"roads"',
-         "slope_pace": '"terrain"', "riding": '"walking"', "climbing": '"stairs"', "at_rest": '"wait"', "routes_round_jams": "", "contact_momentum": ""}
+         "slope_pace": '"terrain"', "riding": '"walking"', "climbing": '"stairs"', "at_rest": '"wait"',
+         "routes_round_jams": "", "contact_momentum": ""}
 FOR_BODIES = {"shoulders", "room_to_stride"}
 
 # Beside one rule after the other: name for --only -> (what the table calls it, settings).

@@ -307,19 +307,27 @@ def company_row(runs):
 
 def imo_rows(runs):
     flows = [each["flow"] for each in each_seed(runs, "imo-4", SEEDS)]
-    against = [[each["seconds"] for each in each_seed(runs, f"imo-8-{others}", SEEDS)] for others in (0, 10, 50, 100)]
-    longer = sum(list(times) == sorted(times) for times in zip(*against))
     return [
         [
             f"imo-4, 100 discs as wide as shoulders, door of 1 m, headway 0.13 s, {seeds_of(flows)}",
             f"{span_of(flows, 2)} per s ({sum(flows) / len(flows):.2f} on average)",
             "at most 1.33 per s on average",
         ],
-        [
-            f"imo-8, 100 discs against 0 / 10 / 50 / 100 in a corridor 2 m wide, {seeds_of(flows)}",
-            f"{slashes([sum(times) / len(times) for times in against], 0)} s on average; {longer} of {len(flows)} hold",
-            "more take longer",
-        ],
+        *(counterflow_row(runs, people) for people in ("discs", "adults as they come")),
+    ]
+
+
+def counterflow_row(runs, people):
+    def bodies(others):
+        return [] if people == "discs" else [f"formations.{each}.people.body=adult" for each in range(2 if others else 1)]
+
+    times = [[each["seconds"] for each in each_seed(runs, f"imo-8-{others}", SEEDS, *bodies(others))]
+             for others in (0, 10, 50, 100)]
+    longer = sum(list(each) == sorted(each) for each in zip(*times))
+    return [
+        f"imo-8, 100 {people} against 0 / 10 / 50 / 100 in a corridor 2 m wide, {seeds_of(times[0])}",
+        f"{slashes([sum(each) / len(each) for each in times], 0)} s on average; {longer} of {len(times[0])} hold",
+        "more take longer",
     ]
 
 

@@ -27,7 +27,7 @@ struct Manners {
     float crowding;    // 0 to 1
     float follows;     // 1 where it was given a headway, 0 where it pushes on
     float freedom;     // 0 to 1: how little those ahead hold it up
-    float unhurried;   // 1 where one has a body and somebody ahead comes the other way, else 0
+    float hurrying;    // 0 to 1: how much it hurries for those who come up from behind
 };
 
 /// The acceleration, m/s^2, that makes room for somebody who wants to go `wish` (m/s).
@@ -47,7 +47,7 @@ vec2 roomFor(Manners manners, vec2 offset, vec2 relative, vec2 overtaking, float
     vec2 aside = (room - manners.way * along) * mix(swerve, 1.0, oncoming);
     if (PASSING_SIDE_ENABLED) aside += passingSide(manners.way, oncoming, room);
     along *= 1.0 - behind;
-    if (along > 0.0) along *= 1.0 - followed(alike) * manners.unhurried;
+    if (along > 0.0) along *= 1.0 - followed(alike) * (1.0 - manners.hurrying);
     if (along < 0.0) along *= 1.0 - max(unbraked(oncoming), manners.impatience);
     return manners.way * along + aside + touch;
 }

@@ -172,6 +172,19 @@ def test_a_counterflow_slows_a_corridor_down(scenario):
     assert seconds[-1] > 1.5 * seconds[0]
 
 
+@pytest.mark.slow
+def test_a_counterflow_slows_people_with_bodies_down(throng, tmp_path):
+    """The same with adults as they come, on average: with one seed alone two lanes may form at once."""
+    def seconds(others, seed):
+        words = [f"simulation.seed={seed}", *(f"formations.{each}.people.body=adult" for each in range(2 if others else 1))]
+        told = throng("scenarios", "--run", f"imo-8-{others}", "--json", "-o", tmp_path / f"{others}-{seed}",
+                      *(word for each in words for word in ("--set", each)))
+        return json.loads(told.stdout)["seconds"]
+
+    alone, against = ([seconds(others, seed) for seed in (1, 2, 3)] for others in (0, 100))
+    assert sum(against) > 1.1 * sum(alone), (alone, against)
+
+
 @pytest.mark.parametrize("name, width, start", [("imo-4", 1.0, [4, 2]), ("rimea-9-four-exits", 1.0, [15, 10]),
                                                 ("rimea-9-two-exits", 1.0, [15, 10]), ("rimea-11", 1.0, [15, 10]),
                                                 ("bottleneck-080", 0.8, [-5, 1]), ("bottleneck-100", 1.0, [-5, 1]),
