@@ -319,7 +319,9 @@ def imo_rows(runs):
 
 def counterflow_row(runs, people):
     def bodies(others):
-        return [] if people == "discs" else [f"formations.{each}.people.body=adult" for each in range(2 if others else 1)]
+        if people == "discs":  # as the layouts say
+            return []
+        return [f"formations.{each}.people.body=adult" for each in range(2 if others else 1)]
 
     times = [[each["seconds"] for each in each_seed(runs, f"imo-8-{others}", SEEDS, *bodies(others))]
              for others in (0, 10, 50, 100)]
