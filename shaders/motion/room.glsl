@@ -5,10 +5,6 @@
 // never gets through, and everybody behind stops too: opposing streams freeze at the line where they meet. So nobody
 // brakes for oncoming people, who is held up grows impatient and makes less room, and in a crowd nobody swerves for
 // those who cross.
-//
-// Room along one's way is made by hurrying, too, for whoever comes up from behind. Where streams of people with bodies
-// meet, nobody does: each row would drive the one before it through the others, and streams would pass each other
-// faster by a third than people's do (Zhang and others 2012).
 // Needs the block ParametersBlock and shaders/shared/at_most.glsl.
 #include "shaders/motion/walking_behind.glsl"
 #include "shaders/motion/room_by_time_to_collision.glsl"

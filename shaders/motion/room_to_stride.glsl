@@ -15,7 +15,17 @@
 //
 // Where streams meet nobody strides: room kept there is only given away to those who come across. Who has passed
 // disturbs nobody any more.
+//
+// There everybody presses, and is hurried on besides by those of its own stream who come up from behind: each row would
+// drive the one before it through the others, and streams would pass each other faster by a third than people's do
+// (Zhang and others 2012). So the more impatient somebody is, the less it hurries.
 // Needs shaders/motion/walking_behind.glsl and shaders/shared/body_shape.glsl.
+
+/// 0 to 1: how much one hurries for those who come up from behind.
+/// @param is_met somebody ahead comes the other way, and one has a body
+float hurryingOf(bool is_met, float impatience) {
+    return is_met ? mix(1.0, ROOM_TO_STRIDE_HURRYING, impatience) : 1.0;
+}
 
 #ifdef BODIES
 
