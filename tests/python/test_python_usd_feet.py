@@ -52,6 +52,11 @@ def steps_of(bake, stage):
                     yield tuple(joints[f"{name}_{side}"][first:last] for name in ("foot", "ball"))
 
 
+def lifted(steps):
+    """Those in which the foot leaves the ground although the gait has it flat: somebody is pushed, and puts it elsewhere."""
+    return numpy.array([numpy.ptp(ankle[:, 2]) > 0.02 for ankle, _ in steps])
+
+
 def slid(steps):
     return numpy.array([numpy.linalg.norm(ankle[:, :2] - ankle[0, :2], axis=1).max() for ankle, _ in steps])
 
@@ -64,7 +69,8 @@ def test_planted_feet_stay_where_they_came_down(made):
 def test_feet_stand_on_slopes_and_stairs(made):
     bake, stage = made("hill")
     steps = list(steps_of(bake, stage))
-    assert len(steps) > 40 and numpy.quantile(slid(steps), 0.98) < 0.01
+    assert len(steps) > 40 and lifted(steps).mean() < 0.1
+    assert numpy.quantile(slid(steps)[~lifted(steps)], 0.98) < 0.01
     triangles = terrain_of(bake).points[numpy.array(terrain_of(bake).faces)]
     tree = shapely.STRtree(shapely.polygons(triangles[:, :, :2]))
 
