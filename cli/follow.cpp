@@ -40,7 +40,7 @@ void checkRequest(const io::Bake& bake, const FollowRequest& request) {
 }
 
 /// The ground that a bake has is in the world's coordinates; the file that its layout names may be gone. That
-/// of storeys is what their floors and links make of it.
+/// of storeys has floors and links built into it, and is no layout's.
 std::vector<std::string> itsTerrain(const io::Bake& bake) {
     if (bake.hasStoreys() || !std::filesystem::exists(bake.folder / "terrain.glb")) return {};
     return {"terrain.file=terrain.glb", "terrain.node=terrain", "terrain.scale=1",

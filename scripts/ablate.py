@@ -63,7 +63,8 @@ def layout_of(scenario):
 def has_bodies(text):
     """Whether anybody in a layout has a body: whoever is given neither a radius nor a disc."""
     layout = json.loads(text)
-    everybody = [each.get("people", {}) for kind in ("flows", "formations") for each in layout.get(kind, [])]
+    everybody = [each.get("people", {}) for kind in ("flows", "formations", "seats", "given")
+                 for each in layout.get(kind, [])]
     return any("radius" not in people and people.get("body") != "disc" for people in everybody)
 
 

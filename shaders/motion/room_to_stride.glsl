@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Room to stride, for those who have a body (`people.body`) and were given no headway. A body is as deep as a chest,
 // and who is as near to the one ahead as that allows cannot walk: legs take room that a body does not. So where
-// everybody whom one senses goes one's way, one follows whoever is before one's own breadth, by the true extents of
+// all ahead whom one senses go one's way, one follows whoever is before one's own breadth, by the true extents of
 // both bodies: depth along the way, breadth across it.
 //
 // A step is as long as the way is free, and the length of people's steps over how many they take is always the same,
@@ -13,12 +13,13 @@
 // nothing; at a door, where those before walk off, it is most: people go through as the one before walks off, not when
 // it is gone. Who strides so does not press, and needs no turns (shaders/motion/taking_turns.glsl).
 //
-// Where streams meet nobody strides: room kept there is only given away to those who come across. Who has passed
-// disturbs nobody any more.
+// Where somebody ahead goes another way nobody strides: room kept there is only given away to those who come across.
+// Who has passed disturbs nobody any more.
 //
-// There everybody presses, and is hurried on besides by those of its own stream who come up from behind: each row would
-// drive the one before it through the others, and streams would pass each other faster by a third than people's do
-// (Zhang and others 2012). So the more impatient somebody is, the less it hurries.
+// Where somebody ahead comes the other way (by NEAREST_FIRST_ONCOMING), everybody presses, and would be hurried on
+// besides by those of its own stream who come up from behind: each row would drive the one before it through the
+// others, faster than people's streams pass each other (Zhang and others 2012). So the more impatient somebody is
+// there, the less it hurries.
 // Needs shaders/motion/walking_behind.glsl and shaders/shared/body_shape.glsl.
 
 /// 0 to 1: how much one hurries for those who come up from behind.

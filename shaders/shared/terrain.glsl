@@ -21,14 +21,15 @@ vec2 smoothGround(vec2 position) {
 }
 
 /// Rise over run in a direction, from `reach` behind to `reach` ahead (m). Where the ground ends on one side, over a
-/// drop, which is where both sides differ by more than anybody walks on, only the other counts: who walks away from an
-/// edge climbs no cliff.
+/// drop, only the other counts: who walks away from an edge climbs no cliff. A drop is where one side is steeper than
+/// anybody walks on, and the other is not as steep.
 /// @param here m: the height of the smooth ground at the position
 float smoothSlope(vec2 position, vec2 direction, float reach, float here) {
     float ahead = smoothGround(position + reach * direction).x, behind = smoothGround(position - reach * direction).x;
     float slope = (ahead - behind) / (2.0 * reach);
     vec2 sides = vec2(ahead - here, here - behind) / reach;
-    if (abs(slope) <= STEEPEST_GROUND && abs(sides.x - sides.y) <= STEEPEST_GROUND) return slope;
+    bool is_drop = max(abs(sides.x), abs(sides.y)) > STEEPEST_GROUND && abs(sides.x - sides.y) > STEEPEST_GROUND;
+    if (abs(slope) <= STEEPEST_GROUND && !is_drop) return slope;
     float gentler = abs(sides.x) < abs(sides.y) ? sides.x : sides.y;
     return abs(gentler) <= STEEPEST_GROUND ? gentler : 0.0;
 }

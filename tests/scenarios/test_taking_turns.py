@@ -59,7 +59,7 @@ def test_who_waits_before_a_door_looks_at_it(squeeze):
 
 
 CORRIDOR = body_flows.corridor_with_door(body_flows.PEOPLE["body"])  # of 1.8 m; the door of 0.7 m
-CORRIDOR["simulation"].update(duration=135, seed=1)
+CORRIDOR["simulation"].update(duration=140, seed=2)
 
 
 @pytest.fixture(scope="module")
@@ -78,7 +78,8 @@ def moments_out(throng, once):
 
 def test_who_stands_at_a_jamb_goes_round_it(moments_out):
     """In the experiment all 148 were out, 1.6 a second; with seeds 1 to 4 it is 1.22 here, 1.16 at the least, and the
-    longest that nobody comes out is 3.7 s. Who heeds jams even at a jamb walks into it (1.09; 1.13 with this seed)."""
+    longest that nobody comes out is 3.7 s. Who heeds jams even at a jamb walks into it (1.09; with this seed 1.06
+    instead of 1.19)."""
     out = moments_out("corridor")
     assert len(out) == 148 and 147 / (out[-1] - out[0]) > 1.12
     assert numpy.diff(out).max() < 5
