@@ -53,7 +53,7 @@ def steps_of(bake, stage):
 
 
 def lifted(steps):
-    """Those in which the foot leaves the ground although the gait has it flat: somebody is pushed, and puts it elsewhere."""
+    """Those in which the foot leaves the ground although the gait has it flat: somebody pushed puts it elsewhere."""
     return numpy.array([numpy.ptp(ankle[:, 2]) > 0.02 for ankle, _ in steps])
 
 
