@@ -23,6 +23,8 @@ import reading  # noqa: E402
 
 PEOPLE = {"body": {"profile": "adult", "body": "adult"}, "disc": {"profile": "adult", "body": "disc"}}
 SPECIFIC_FLOW = 1.9  # persons/(s m): Seyfried et al. 2009, for 0.9 to 2.5 m
+DUESSELDORF = {"normal": [1.55, 0.18], "min": 1.0, "max": 2.1}  # m/s: how fast people of the experiments there like it
+TWO_WAYS = 3.6  # m: how wide the corridor is that they pass each other in
 NEAR_DOOR = 1.5  # m round the middle of a door, on the side where people wait
 HEAD = "| | found (mean) | worst seed | wanted | holds | deepest overlap, % | steps backwards, % |"
 RULE = "|" + " --- |" * (HEAD.count("|") - 1)
@@ -74,7 +76,6 @@ def hall_before(width, people):
 
 def corridor_with_door(people):
     """148 people come into a corridor of 1.8 m as fast as it takes them, and leave it by a door of 0.7 m at its end."""
-    speed = {"normal": [1.55, 0.18], "min": 1.0, "max": 2.1}
     # Closed behind them: else they walk round it.
     sides = [{"points": [[0, 0.95], [-21, 0.95], [-21, -0.95], [0, -0.95]], "thickness": 0.1}]
     ends = [{"points": [[0, side * 0.35], [0, side * 0.95]], "thickness": 0.0} for side in (1, -1)]
@@ -82,41 +83,44 @@ def corridor_with_door(people):
         "throng": 1, "simulation": {"duration": 140, "fps": 24, "substeps": 2}, "walls": sides + ends,
         "areas": [{"id": "in", "polygon": box(-20.6, -0.6, -18.6, 0.6)}, {"id": "out", "polygon": box(4, -2, 6, 2)}],
         "flows": [{"id": "walkers", "from": "in", "to": "out", "count": 148, "end": 55,
-                   "people": {**people, "speed": speed}}],
+                   "people": {**people, "speed": DUESSELDORF}}],
         "expect": {"line": [[0, -0.35], [0, 0.35]]}}
 
 
 def people_against_people(width, people):
-    """About 150 come through an entrance of `width` at either end of a corridor, 8 m long and 3.6 m wide, all at once,
-    and leave it to both sides: BOT-360 of the experiments in Duesseldorf, 2009 (Zhang and others 2012)."""
-    speed = {"normal": [1.55, 0.18], "min": 1.0, "max": 2.1}
-    half, walls, areas, formations = 0.5 * width, [], [], []
+    """About 150 come through an entrance of `width` at either end of a corridor 8 m long, all at once, and leave it to
+    both sides: BOT-360 of the experiments in Duesseldorf, 2009 (Zhang and others 2012)."""
+    half, side, walls, areas, formations = 0.5 * width, 0.5 * TWO_WAYS + 0.05, [], [], []
     for x in (-1, 1):
         walls.append({"points": [[x * 6.5, half], [x * 6.5, 8], [x * 19.5, 8], [x * 19.5, -8], [x * 6.5, -8],
                                  [x * 6.5, -half]], "thickness": 0.1})  # a hall, and its entrance
         for y in (-1, 1):
-            walls.append({"points": [[x * 6.5, y * 8], [x * 4, y * 8], [x * 4, y * 1.85], [0, y * 1.85]],
+            walls.append({"points": [[x * 6.5, y * 8], [x * 4, y * 8], [x * 4, y * side], [0, y * side]],
                           "thickness": 0.1})
             areas.append({"id": f"out{x}{y}", "polygon": box(x * 4.3, y * 4.2, x * 6.2, y * 6.5)})
         formations.append({"id": "east" if x < 0 else "west", "type": "grid", "origin": [x * 7.5, x * -3.575],
                            "rotation": 0 if x > 0 else 180, "rows": 14, "columns": 11, "spacing": 0.55, "jitter": 0.02,
                            "goal": {"nearest": [f"out{-x}{y}" for y in (-1, 1)]}, "arrival": "leave",
-                           "people": {**people, "speed": speed}})
+                           "people": {**people, "speed": DUESSELDORF}})
     return {"throng": 1, "simulation": {"duration": 110, "fps": 24, "substeps": 2}, "walls": walls, "areas": areas,
             "formations": formations}
 
 
+def first_frames(happens):
+    """When it first happens to each of those to whom it does. (`happens`: frames by people)"""
+    return happens.argmax(axis=0)[happens.any(axis=0)]
+
+
 def through_the_middle(bake, measured):
-    """persons/(s m) through a line across the middle of a corridor 3.6 m wide, from the first to the last."""
+    """persons/(s m) through a line across the middle of the corridor with two ways, from the first to the last."""
     about = json.loads((bake / "bake.json").read_text())
     x = reading.stream(bake, "pos")[:, :, 0] + about["origin"][0]
     there = reading.stream(bake, "state")[:, :, 0] > 0.5
     east = x[0] < 0.0
-    beyond = numpy.where(east, x, -x) > 0.0
-    times = (beyond & there).argmax(axis=0)[(beyond & there).any(axis=0)]
+    times = first_frames((numpy.where(east, x, -x) > 0.0) & there)
     if len(times) < 0.95 * len(east):
         return 0.0  # stuck
-    return len(times) / (times.max() - times.min()) * about["fps"] / 3.6
+    return len(times) / (times.max() - times.min()) * about["fps"] / TWO_WAYS
 
 
 def flow_of(bake, measured):
@@ -128,11 +132,10 @@ def longest_jam(bake, measured):
     about = json.loads((bake / "bake.json").read_text())
     x = reading.stream(bake, "pos")[:, :, 0] + about["origin"][0]
     out = (x > 0.0) & (reading.stream(bake, "state")[:, :, 0] > 0.5)
-    left = out.any(axis=0)
-    if not left.any():
+    times = numpy.sort(first_frames(out))
+    if not len(times):
         return len(x) / about["fps"]
-    times = numpy.sort(out.argmax(axis=0)[left])
-    ends = times if left.all() else [*times, len(x) - 1]
+    ends = times if len(times) == x.shape[1] else [*times, len(x) - 1]
     return numpy.diff(ends).max() / about["fps"]
 
 

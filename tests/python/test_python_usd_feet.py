@@ -69,8 +69,9 @@ def test_planted_feet_stay_where_they_came_down(made):
 def test_feet_stand_on_slopes_and_stairs(made):
     bake, stage = made("hill")
     steps = list(steps_of(bake, stage))
-    assert len(steps) > 40 and lifted(steps).mean() < 0.05
-    assert numpy.quantile(slid(steps)[~lifted(steps)], 0.98) < 0.01
+    elsewhere = lifted(steps)
+    assert len(steps) > 40 and elsewhere.mean() < 0.05
+    assert numpy.quantile(slid(steps)[~elsewhere], 0.98) < 0.01
     triangles = terrain_of(bake).points[numpy.array(terrain_of(bake).faces)]
     tree = shapely.STRtree(shapely.polygons(triangles[:, :, :2]))
 

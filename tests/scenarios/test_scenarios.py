@@ -176,7 +176,8 @@ def test_a_counterflow_slows_a_corridor_down(scenario):
 def test_a_counterflow_slows_people_with_bodies_down(throng, tmp_path):
     """The same with adults as they come, on average: with one seed alone two lanes may form at once."""
     def seconds(others, seed):
-        words = [f"simulation.seed={seed}", *(f"formations.{each}.people.body=adult" for each in range(2 if others else 1))]
+        blocks = range(2 if others else 1)
+        words = [f"simulation.seed={seed}", *(f"formations.{each}.people.body=adult" for each in blocks)]
         told = throng("scenarios", "--run", f"imo-8-{others}", "--json", "-o", tmp_path / f"{others}-{seed}",
                       *(word for each in words for word in ("--set", each)))
         return json.loads(told.stdout)["seconds"]
