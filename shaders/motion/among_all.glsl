@@ -14,12 +14,12 @@ uint neighbourKey(uint slot, uint nth) { return neighbours[nth * slot_capacity +
 struct Striding {
     float pace;    // m/s
     bool strides;  // it may keep room to stride: all those ahead go its way, or through the same narrow passage
-    bool is_met;   // somebody ahead wants to get to where it comes from
+    bool is_met;   // it has a body, and somebody ahead wants to get to where it comes from
 };
 
 Striding strideAmongAll(Body self, Walker walker, vec2 way, float speed, uint slot) {
-    bool has_rule = ROOM_TO_STRIDE_ENABLED && hasBody(walker);
-    Striding found = Striding(speed, has_rule && speed > STANDING_SPEED, false);
+    bool has_body = hasBody(walker);
+    Striding found = Striding(speed, ROOM_TO_STRIDE_ENABLED && has_body && speed > STANDING_SPEED, false);
     // Two who stand on both sides of a door walk towards each other first, and yet go one way (climbsInTurn).
     bool is_in_narrows = (touch_words[slot] & TOUCH_IN_NARROWS) != 0u;
     vec2 own = extentsAlong(way, self.radius, axis_of_self);
@@ -31,7 +31,7 @@ Striding strideAmongAll(Body self, Walker walker, vec2 way, float speed, uint sl
         float alike = likeness(way, wish);
         if (dot(offset, way) > 0.0) {
             found.strides = found.strides && (is_in_narrows || isPeaceful(alike));
-            found.is_met = found.is_met || has_rule && length(wish) > STANDING_SPEED &&
+            found.is_met = found.is_met || has_body && length(wish) > STANDING_SPEED &&
                                                isOncoming(walker.way_through, other.way_through);
         }
         vec2 extents = own + extentsAlong(way, bodies[key].radius, vec2(other.axis_x, other.axis_y));

@@ -150,7 +150,8 @@ void main() {
     if (isHeld(walker.flags)) impatience = 0.0;
 #endif
     Manners manners = Manners(way, impatience, crowdingAmong(neighbour_counts[slot]), follows ? 1.0 : 0.0,
-                              freedomAt(pace / max(speed, STANDING_SPEED)), hurryingOf(is_met, impatience));
+                              freedomAt(pace / max(speed, STANDING_SPEED)), hurryingOf(is_met, impatience),
+                              toTheRight(hasBody(walker), is_met));
     float in_peace = HEADWAY_IN_PEACE_ENABLED && !follows ? headwayInPeace(impatience) : 0.0;
     Surroundings around = lookAround(self, slot, wish, speed, in_peace, manners);
     if (around.in_peace) pace = min(pace, around.pace);

@@ -18,12 +18,13 @@
 
 /// What somebody's wish, patience and surroundings make of the room that others would like.
 struct Manners {
-    vec2 way;          // where it wants to go, of unit length
-    float impatience;  // 0 to 1
-    float crowding;    // 0 to 1
-    float follows;     // 1 where it was given a headway, 0 where it pushes on
-    float freedom;     // 0 to 1: how little those ahead hold it up
-    float hurrying;    // 0 to 1: how much it hurries for those who come up from behind
+    vec2 way;            // where it wants to go, of unit length
+    float impatience;    // 0 to 1
+    float crowding;      // 0 to 1
+    float follows;       // 1 where it was given a headway, 0 where it pushes on
+    float freedom;       // 0 to 1: how little those ahead hold it up
+    float hurrying;      // 0 to 1: how much it hurries for those who come up from behind
+    float to_the_right;  // of the room made for somebody oncoming: so much more of it to that side
 };
 
 /// The acceleration, m/s^2, that makes room for somebody who wants to go `wish` (m/s).
@@ -41,7 +42,7 @@ vec2 roomFor(Manners manners, vec2 offset, vec2 relative, vec2 overtaking, float
     float along = dot(room, manners.way);
     float swerve = patience * mix(1.0 - manners.crowding, manners.freedom, behind);
     vec2 aside = (room - manners.way * along) * mix(swerve, 1.0, oncoming);
-    if (PASSING_SIDE_ENABLED) aside += passingSide(manners.way, oncoming, room);
+    if (HAVE_SIDES) aside += passingSide(manners.way, manners.to_the_right, oncoming, room);
     along *= 1.0 - behind;
     if (along > 0.0) along *= 1.0 - followed(alike) * (1.0 - manners.hurrying);
     if (along < 0.0) along *= 1.0 - max(unbraked(oncoming), manners.impatience);

@@ -25,7 +25,7 @@
 /// 0 to 1: how much one hurries for those who come up from behind.
 /// @param is_met somebody ahead comes the other way, and one has a body
 float hurryingOf(bool is_met, float impatience) {
-    return is_met ? mix(1.0, ROOM_TO_STRIDE_HURRYING, impatience) : 1.0;
+    return ROOM_TO_STRIDE_ENABLED && is_met ? mix(1.0, ROOM_TO_STRIDE_HURRYING, impatience) : 1.0;
 }
 
 #ifdef BODIES

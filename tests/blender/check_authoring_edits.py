@@ -144,7 +144,7 @@ def change_seed():
 
 def change_motion():
     data().motion.headway.enabled = False
-    data().motion.passing_side.enabled = True
+    data().motion.passing_side.enabled = False
     data().motion.planted_feet.slip = 1.25
 
 

@@ -71,6 +71,22 @@ class BodiesTest : public GpuTest {
         const auto states = simulation.parts().buffers.states.download<gpu::AgentState>(2);
         return states[0].position.x - states[1].position.x;
     }
+    /// m: how far on its left somebody passes another who comes the other way, right at it.
+    double leftWhenTheyMeet(double to_the_right, std::uint64_t seed) {
+        authoring::Scene scene = emptyScene({-10, -5}, {10, 5});
+        scene.settings.seed = seed;
+        setRule(scene, "passing_side", "to_the_right", to_the_right);
+        addBody(scene, {-8, 0}, {8, 0}, 0.0f);
+        addBody(scene, {8, 0}, {-8, 0}, std::numbers::pi_v<float>);
+        sim::Simulation simulation(scene, library);
+        for (int step = 0; step < 10 * 48; ++step) {
+            simulation.step();
+            const auto states = simulation.parts().buffers.states.download<gpu::AgentState>(2);
+            if (states[0].position.x >= states[1].position.x)
+                return states[0].position.y - states[1].position.y;
+        }
+        return 0.0;
+    }
     /// m: how far somebody comes in 1.5 s who stood right behind one who walks off.
     double wayBehindOneWhoWalksOff(double drawing_away) {
         authoring::Scene scene = oneBehindAnother(0.35f);
@@ -122,6 +138,17 @@ TEST_F(BodiesTest, WhoFollowsLeavesRoomToStrideBehindAChest) {
 
 TEST_F(BodiesTest, WhoDrawsAwayIsFollowedSooner) {
     EXPECT_GT(wayBehindOneWhoWalksOff(5.0), wayBehindOneWhoWalksOff(0.0) + 0.2);
+}
+
+TEST_F(BodiesTest, MostWhoMeetHeadOnPassOnTheirSide) {
+    // Of people some four in five do so (Moussaid and others 2009).
+    int on_the_right = 0, on_the_left = 0;
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+        on_the_right += leftWhenTheyMeet(0.25, seed) < -0.3;
+        on_the_left += leftWhenTheyMeet(-0.25, seed) > 0.3;
+    }
+    EXPECT_GE(on_the_right, 6);
+    EXPECT_GE(on_the_left, 6);
 }
 
 }  // namespace

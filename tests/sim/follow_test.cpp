@@ -212,7 +212,9 @@ TEST_F(FollowTest, RulesThatAreOffAreNotNamed) {
 
 TEST(Rungs, EndWithTheRulesAsTheyWereTold) {
     const gl::ShaderLibrary library;
-    MotionSettings told;
+    authoring::Scene scene = emptyScene({-1, -1}, {1, 1});
+    setRule(scene, "passing_side", "enabled", 0);
+    const MotionSettings& told = scene.settings.motion;
     const auto rungs = sim::rungsOf(library, "shaders/motion/avoid.comp", told, "drive");
     EXPECT_EQ(rungs.front().rule, "drive");
     EXPECT_FALSE(rungs.front().rules.isOn("walls_ahead"));
@@ -221,7 +223,7 @@ TEST(Rungs, EndWithTheRulesAsTheyWereTold) {
         EXPECT_TRUE(names.insert(rung.rule).second) << rung.rule;
     EXPECT_TRUE(names.contains("walls_ahead"));
     EXPECT_FALSE(names.contains("standing_fast"));  // is contact's
-    EXPECT_FALSE(names.contains("passing_side"));   // is off unless told
+    EXPECT_FALSE(names.contains("passing_side"));   // is off
     EXPECT_EQ(rungs.back().rules.definitions(), told.definitions());
 }
 

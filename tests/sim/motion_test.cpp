@@ -137,8 +137,7 @@ TEST_F(MotionTest, TwoPeopleHeadOnPassOnTheirSideWhereTheyHaveOne) {
         for (const std::uint64_t seed : {1u, 2u, 3u, 4u}) {
             authoring::Scene scene = emptyScene({-10, -5}, {10, 5});
             scene.settings.seed = seed;
-            setRule(scene, "passing_side", "enabled", 1.0);
-            setRule(scene, "passing_side", "to_the_right", to_the_right);
+            setRule(scene, "passing_side", "discs_to_the_right", to_the_right);
             addPerson(scene, {-8, 0}, {8, 0}, 1.3f);
             addPerson(scene, {8, 0}, {-8, 0}, 1.3f);
             sim::Simulation simulation(scene, library);
