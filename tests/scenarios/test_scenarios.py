@@ -186,6 +186,32 @@ def test_a_counterflow_slows_people_with_bodies_down(throng, tmp_path):
     assert sum(against) > 1.15 * sum(alone), (alone, against)
 
 
+def test_streams_with_bodies_pass_each_other_in_a_narrow_passage(throng, tmp_path):
+    """Of 1.5 people per second from either side, as they have a side to pass on; without one they form knots."""
+    hall = [[-10, -4], [0, -4], [0, 0], [40, 0], [40, -4], [50, -4]]
+    layout = {
+        "throng": 1,
+        "simulation": {"duration": 110},
+        "walls": [{"points": points} for points in (
+            hall, [[x, 2.5 - y if y == 0 else 8] for x, y in hall], [[-10, -4], [-10, 8]], [[50, -4], [50, 8]])],
+        "areas": [{"id": "west", "polygon": [[-9.5, -3.5], [-7, -3.5], [-7, 7.5], [-9.5, 7.5]]},
+                  {"id": "east", "polygon": [[47, -3.5], [49.5, -3.5], [49.5, 7.5], [47, 7.5]]}],
+        "flows": [{"id": "eastwards", "from": "west", "to": "east", "rate": 1.5},
+                  {"id": "westwards", "from": "east", "to": "west", "rate": 1.5}],
+    }
+    (tmp_path / "passage.json").write_text(json.dumps(layout))
+
+    def through(seed, *settings):
+        bake = tmp_path / f"{seed}{len(settings)}"
+        throng("bake", tmp_path / "passage.json", "-o", bake, "--no-gltf", "-q",
+               *(word for each in (f"simulation.seed={seed}", *settings) for word in ("--set", each)))
+        return sum(row["outcome"] == "arrived" for row in ends_of(bake)[0])
+
+    with_side, without = (sum(through(seed, *settings) for seed in (1, 2))
+                          for settings in ([], ["motion.passing_side.enabled=false"]))
+    assert with_side > 1.25 * without, (with_side, without)
+
+
 @pytest.mark.parametrize("name, width, start", [("imo-4", 1.0, [4, 2]), ("rimea-9-four-exits", 1.0, [15, 10]),
                                                 ("rimea-9-two-exits", 1.0, [15, 10]), ("rimea-11", 1.0, [15, 10]),
                                                 ("bottleneck-080", 0.8, [-5, 1]), ("bottleneck-100", 1.0, [-5, 1]),

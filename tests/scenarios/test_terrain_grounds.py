@@ -291,9 +291,14 @@ def test_the_bridge_of_the_examples_is_walked_over_and_under(throng, bakes):
     figures = measured(throng, folder)
     assert (figures["arrived"], figures["agents"], figures["wall_crossings"]) == (518, 518, 0)
     assert figures["deepest_overlap_percent"] < 2
-    places, there = stream(folder, "pos")[900], stream(folder, "state")[900, :, 0] > 0
-    deck, street = (places[there & those] for those in (places[:, 2] > 5.1, places[:, 2] < 0.2))
-    assert (numpy.linalg.norm(deck[:, None, :2] - street[None, :, :2], axis=2) < 0.5).any()
+    places, there = stream(folder, "pos"), stream(folder, "state")[..., 0] > 0
+
+    def is_above_another(frame):
+        deck, street = (places[frame, there[frame] & those, :2]
+                        for those in (places[frame, :, 2] > 5.1, places[frame, :, 2] < 0.2))
+        return (numpy.linalg.norm(deck[:, None] - street[None], axis=2) < 0.5).any()
+
+    assert any(is_above_another(frame) for frame in range(600, 1200, 50))
 
 
 def test_what_is_wider_than_its_ground_does_nothing_on_others(throng, tmp_path):

@@ -155,7 +155,7 @@ def _crane(geometry, people, target, u):
 
 
 _OFF_WALLS = 3.0  # m
-_SUN = 4.0      # m of room before the lens, for which sun on all who are near makes up,
+_SUN = 5.0      # m of room before the lens, for which sun on all who are near makes up,
 _AGAINST = 3.0  # and which light that comes from ahead costs: faces are dark against it
 
 
