@@ -191,7 +191,7 @@ def test_streams_with_bodies_pass_each_other_in_a_narrow_passage(throng, tmp_pat
     hall = [[-10, -4], [0, -4], [0, 0], [40, 0], [40, -4], [50, -4]]
     layout = {
         "throng": 1,
-        "simulation": {"duration": 110},
+        "simulation": {"duration": 80},
         "walls": [{"points": points} for points in (
             hall, [[x, 2.5 - y if y == 0 else 8] for x, y in hall], [[-10, -4], [-10, 8]], [[50, -4], [50, 8]])],
         "areas": [{"id": "west", "polygon": [[-9.5, -3.5], [-7, -3.5], [-7, 7.5], [-9.5, 7.5]]},
