@@ -141,7 +141,7 @@ TEST_F(BodiesTest, WhoDrawsAwayIsFollowedSooner) {
 }
 
 TEST_F(BodiesTest, MostWhoMeetHeadOnPassOnTheirSide) {
-    // Of people some four in five do so (Moussaid and others 2009).
+    // As most people do, not all (Moussaid and others 2009).
     int on_the_right = 0, on_the_left = 0;
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {
         on_the_right += leftWhenTheyMeet(0.25, seed) < -0.3;
