@@ -186,6 +186,29 @@ def test_a_counterflow_slows_people_with_bodies_down(throng, tmp_path):
     assert sum(against) > 1.15 * sum(alone), (alone, against)
 
 
+def test_about_seven_in_ten_who_meet_head_on_pass_on_the_right(throng, tmp_path):
+    """As people do (Xiao and others 2019); without a side about half."""
+    pairs = [{"position": [-side, 8 * pair], "goal": [side, 8 * pair]} for pair in range(40) for side in (8, -8)]
+
+    def share(*settings):
+        on_the_right = 0
+        for seed in (1, 2):
+            layout = {"throng": 1, "simulation": {"duration": 14, "seed": seed},
+                      "formations": [{"id": "pairs", "type": "agents", "agents": pairs}]}
+            (tmp_path / "pairs.json").write_text(json.dumps(layout))
+            throng("bake", tmp_path / "pairs.json", "-o", tmp_path / "bake", "--no-gltf", "-q", "--force",
+                   *(word for each in settings for word in ("--set", each)))
+            places = numpy.load(tmp_path / "bake" / "streams" / "pos.npy")
+            for one, other in zip(places.swapaxes(0, 1)[::2], places.swapaxes(0, 1)[1::2]):
+                past = numpy.argmax(one[:, 0] >= other[:, 0])
+                on_the_right += one[past, 1] < other[past, 1]
+        return on_the_right / 80
+
+    assert 0.6 < share() < 0.85
+    assert 0.35 < share("motion.passing_side.enabled=false") < 0.65
+    assert share("motion.passing_side.to_the_right=-0.25") < 0.4
+
+
 def test_streams_with_bodies_pass_each_other_in_a_narrow_passage(throng, tmp_path):
     """Of 1.5 people per second from either side, as they have a side to pass on; without one they form knots."""
     hall = [[-10, -4], [0, -4], [0, 0], [40, 0], [40, -4], [50, -4]]
