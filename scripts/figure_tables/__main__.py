@@ -29,7 +29,8 @@ class Table(typing.NamedTuple):
 TABLES = {
     "scenarios": Table("motion-validation.md", 8, motion.scenarios),
     "rvo2-motion": Table("motion-validation.md", 15, motion.rvo2_motion),
-    "seeds": Table("motion-validation.md", 80, motion.seeds),
+    "seeds": Table("motion-validation.md", 60, motion.seeds),
+    "seeds-adults": Table("motion-validation.md", 30, motion.seeds_adults),
     "large": Table("motion-validation.md", 45, motion.large),
     "large-ring": Table("motion-validation.md", 100, motion.large_ring),
     "large-streets": Table("motion-validation.md", 25, motion.large_streets),
@@ -37,7 +38,7 @@ TABLES = {
     "door-widths": Table("motion-validation.md", 8, motion.door_widths),
     "headway": Table("motion-validation.md", 3, motion.headway),
     "steadiness": Table("motion-validation.md", 8, motion.steadiness),
-    "doors": Table("motion-validation.md", 5, motion.doors),
+    "doors": Table("motion-validation.md", 12, motion.doors),
     "stairs": Table("motion-validation.md", 5, storeys.stairs),
     "building": Table("motion-validation.md", 4, storeys.building),
     "bodies": Table("motion-validation.md", 25, bodies.bodies),

@@ -127,8 +127,16 @@ def holding(found):
 
 
 def seeds(runs):
+    return seeds_table(runs, ["ring", "annulus", "corridor", "crossing"])
+
+
+def seeds_adults(runs):
+    return seeds_table(runs, ["crossing-adults"])
+
+
+def seeds_table(runs, names):
     rows = []
-    for name in ("ring", "annulus", "corridor", "crossing", "crossing-adults"):
+    for name in names:
         found = each_seed(runs, name, SEEDS)
         away = [each["furthest_off"] for each in found if "furthest_off" in each]
         rows.append(
