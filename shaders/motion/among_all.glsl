@@ -9,7 +9,8 @@
 
 uint neighbourKey(uint slot, uint nth) { return neighbours[nth * slot_capacity + slot]; }
 
-bool isUnderWay(uint key) { return length(preferred_velocities[key]) > STANDING_SPEED; }
+/// Somebody may be under way (under_way.glsl) and yet not want to move just now.
+bool wantsOn(vec2 wish) { return length(wish) > STANDING_SPEED; }
 
 #ifdef BODIES
 /// How somebody with a body walks behind those ahead.
@@ -33,7 +34,7 @@ Striding strideAmongAll(Body self, Walker walker, vec2 way, float speed, uint sl
         float alike = likeness(way, wish);
         if (dot(offset, way) > 0.0) {
             found.strides = found.strides && (is_in_narrows || isPeaceful(alike));
-            found.is_met = found.is_met || has_body && isUnderWay(key) &&
+            found.is_met = found.is_met || has_body && wantsOn(wish) &&
                                                isOncoming(walker.way_through, other.way_through);
         }
         vec2 extents = own + extentsAlong(way, bodies[key].radius, vec2(other.axis_x, other.axis_y));
@@ -84,7 +85,7 @@ Surroundings lookAround(Body self, uint slot, vec2 wish, float speed, float head
         if (headway > HEADWAY_LEAST)
             around.pace = min(around.pace, paceBehind(manners.way, speed, headway, -offset, reach, its_wish));
         around.in_peace = around.in_peace && isPeaceful(likeness(manners.way, its_wish));
-        around.in_traffic = around.in_traffic || isUnderWay(key);
+        around.in_traffic = around.in_traffic || wantsOn(its_wish);
     }
     return around;
 }

@@ -79,7 +79,7 @@ bool anybodyIsOncoming(uint slot, uint flags) {
     bool found = false;
     for (uint i = 0u; i < neighbour_counts[slot]; ++i) {
         uint key = neighbourKey(slot, i);
-        if ((key & NEIGHBOUR_IS_WALL) != 0u || !isUnderWay(key)) continue;
+        if ((key & NEIGHBOUR_IS_WALL) != 0u || !wantsOn(preferred_velocities[key])) continue;
         bool comes = isOnStairs(flags) ? comesOnStairs(flags, preferred_velocities[slot], walkers[key],
                                                        preferred_velocities[key])
                                        : isOncoming(walkers[slot].way_through, walkers[key].way_through);

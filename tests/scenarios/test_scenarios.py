@@ -18,6 +18,10 @@ HOLD_ALL_BARS = [
 ]
 
 
+def set_words(*settings):
+    return [word for each in settings for word in ("--set", each)]
+
+
 @pytest.fixture(scope="module")
 def scenario(throng, once):
     """scenario("ring") is what `throng scenarios --json` prints of it, baked once; `expect` is its exit status."""
@@ -69,7 +73,7 @@ HALVED = {
 @pytest.mark.slow
 def test_streams_of_thousands_get_through_each_other(throng, tmp_path, name):
     """Jams are chaotic, and another device may add in another order: the last few are not held against it here."""
-    settings = [word for setting in HALVED[name] for word in ("--set", setting)]
+    settings = set_words(*HALVED[name])
     figures = json.loads(throng("scenarios", "--run", name, "--json", "-o", tmp_path, *settings, expect=None).stdout)
     shutil.rmtree(tmp_path / name)  # gigabytes
     assert figures["agents"] == 2048
@@ -179,7 +183,7 @@ def test_a_counterflow_slows_people_with_bodies_down(throng, tmp_path):
         blocks = range(2 if others else 1)
         words = [f"simulation.seed={seed}", *(f"formations.{each}.people.body=adult" for each in blocks)]
         told = throng("scenarios", "--run", f"imo-8-{others}", "--json", "-o", tmp_path / f"{others}-{seed}",
-                      *(word for each in words for word in ("--set", each)))
+                      *set_words(*words))
         return json.loads(told.stdout)["seconds"]
 
     alone, against = ([seconds(others, seed) for seed in (1, 2, 3)] for others in (0, 100))
@@ -197,7 +201,7 @@ def test_about_seven_in_ten_who_meet_head_on_pass_on_the_right(throng, tmp_path)
                       "formations": [{"id": "pairs", "type": "agents", "agents": pairs}]}
             (tmp_path / "pairs.json").write_text(json.dumps(layout))
             throng("bake", tmp_path / "pairs.json", "-o", tmp_path / "bake", "--no-gltf", "-q", "--force",
-                   *(word for each in settings for word in ("--set", each)))
+                   *set_words(*settings))
             places = numpy.load(tmp_path / "bake" / "streams" / "pos.npy")
             for one, other in zip(places.swapaxes(0, 1)[::2], places.swapaxes(0, 1)[1::2]):
                 past = numpy.argmax(one[:, 0] >= other[:, 0])
@@ -227,7 +231,7 @@ def test_streams_with_bodies_pass_each_other_in_a_narrow_passage(throng, tmp_pat
     def through(seed, *settings):
         bake = tmp_path / f"{seed}{len(settings)}"
         throng("bake", tmp_path / "passage.json", "-o", bake, "--no-gltf", "-q",
-               *(word for each in (f"simulation.seed={seed}", *settings) for word in ("--set", each)))
+               *set_words(f"simulation.seed={seed}", *settings))
         return sum(row["outcome"] == "arrived" for row in ends_of(bake)[0])
 
     with_side, without = (sum(through(seed, *settings) for seed in (1, 2))

@@ -71,21 +71,13 @@ class BodiesTest : public GpuTest {
         const auto states = simulation.parts().buffers.states.download<gpu::AgentState>(2);
         return states[0].position.x - states[1].position.x;
     }
-    /// m: how far on its left somebody passes another who comes the other way, right at it.
     double leftWhenTheyMeet(double to_the_right, std::uint64_t seed) {
         authoring::Scene scene = emptyScene({-10, -5}, {10, 5});
         scene.settings.seed = seed;
         setRule(scene, "passing_side", "to_the_right", to_the_right);
         addBody(scene, {-8, 0}, {8, 0}, 0.0f);
         addBody(scene, {8, 0}, {-8, 0}, std::numbers::pi_v<float>);
-        sim::Simulation simulation(scene, library);
-        for (int step = 0; step < 10 * 48; ++step) {
-            simulation.step();
-            const auto states = simulation.parts().buffers.states.download<gpu::AgentState>(2);
-            if (states[0].position.x >= states[1].position.x)
-                return states[0].position.y - states[1].position.y;
-        }
-        return 0.0;
+        return test::leftWhenTheyMeet(scene, library);
     }
     /// m: how far somebody comes in 1.5 s who stood right behind one who walks off.
     double wayBehindOneWhoWalksOff(double drawing_away) {

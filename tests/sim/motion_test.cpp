@@ -140,15 +140,8 @@ TEST_F(MotionTest, TwoPeopleHeadOnPassOnTheirSideWhereTheyHaveOne) {
             setRule(scene, "passing_side", "discs_to_the_right", to_the_right);
             addPerson(scene, {-8, 0}, {8, 0}, 1.3f);
             addPerson(scene, {8, 0}, {-8, 0}, 1.3f);
-            sim::Simulation simulation(scene, library);
-            float left_when_they_met = 0.0f;
-            for (int step = 0; step < 360 && left_when_they_met == 0.0f; ++step) {
-                simulation.step();
-                const auto states = simulation.parts().buffers.states.download<gpu::AgentState>(2);
-                if (states[0].position.x >= states[1].position.x)
-                    left_when_they_met = states[0].position.y - states[1].position.y;
-            }
-            EXPECT_LT(left_when_they_met * to_the_right, -0.1) << to_the_right << ", seed " << seed;
+            EXPECT_LT(leftWhenTheyMeet(scene, library) * to_the_right, -0.1)
+                << to_the_right << ", seed " << seed;
         }
     }
 }

@@ -123,4 +123,16 @@ inline Observation observe(sim::Simulation& simulation, const authoring::Scene& 
     return result;
 }
 
+/// m: how far on its left the first of two, who walks along x, is when it has come to the second; 0 where it
+/// never does.
+inline float leftWhenTheyMeet(const authoring::Scene& scene, const gl::ShaderLibrary& library) {
+    sim::Simulation simulation(scene, library);
+    for (int step = 0; step < 360; ++step) {
+        simulation.step();
+        const auto states = simulation.parts().buffers.states.download<gpu::AgentState>(2);
+        if (states[0].position.x >= states[1].position.x) return states[0].position.y - states[1].position.y;
+    }
+    return 0.0f;
+}
+
 }  // namespace throng::test
