@@ -38,8 +38,8 @@ const gl::Declaration kJamList = {"routes",
                                   {"BlockDispatch", "ListedBlocks"}};
 const gl::Declaration kJamRelax = {"routes",
                                    {"shaders/routes/detour_relax.comp"},
-                                   {"ParametersBlock", "CrowdFlows", "Ground", "DetourDistances",
-                                    "FreeDistances", "ListedBlocks", "FieldMaps"},
+                                   {"ParametersBlock", "crowd_flows", "ground", "detour_distances",
+                                    "free_distances", "ListedBlocks", "FieldMaps"},
                                    {"ChangedBlocks", "NextDistances"}};
 const gl::Declaration kJamKeep = {"routes",
                                   {"shaders/routes/detour_keep.comp"},
@@ -48,7 +48,7 @@ const gl::Declaration kJamKeep = {"routes",
 const gl::Declaration kSlope = {
     "routes",
     {"shaders/routes/detour_slope.comp"},
-    {"ParametersBlock", "FreeDistances", "Ground", "DetourDistances", "FieldMaps", "ListedBlocks"},
+    {"ParametersBlock", "free_distances", "ground", "detour_distances", "FieldMaps", "ListedBlocks"},
     {"DetourSlopes"}};
 
 const gl::Declaration kShow = {"routes",
@@ -116,6 +116,7 @@ Congestion::Congestion(const gl::ShaderLibrary& library, Buffers& buffers, const
         program->bindAll(own);
     }
     relax_.bind("ChangedBlocks", changed_now_);
+    readCellsAsTexels();
     if (!detours.shown.empty()) showOverSeams(library, buffers, detours.shown);
     if (!detours.rides.empty()) takeLifts(library, buffers, detours.rides);
     const auto memory = static_cast<float>(rules.number("routes_round_jams", "memory"));
@@ -124,6 +125,20 @@ Congestion::Congestion(const gl::ShaderLibrary& library, Buffers& buffers, const
     if (!costs_.empty()) free_ground_ = detours.ground;
     flow_.set("fading",
               1.0f - std::exp(-static_cast<float>(runs_per_round_) * parameters.decision_seconds / memory));
+}
+
+void Congestion::readCellsAsTexels() {
+    using Texel = gl::WordTexture::Texel;
+    ground_texels_ = gl::WordTexture(ground_, Texel::four_words);
+    flow_texels_ = gl::WordTexture(flows_, Texel::four_words);
+    free_texels_ = gl::WordTexture(free_distances_, Texel::one_word);
+    distance_texels_ = gl::WordTexture(distances_, Texel::one_word);
+    for (gl::ComputeProgram* program : {&relax_, &slope_}) {
+        program->bind("ground", ground_texels_);
+        program->bind("free_distances", free_texels_);
+        program->bind("detour_distances", distance_texels_);
+    }
+    relax_.bind("crowd_flows", flow_texels_);
 }
 
 void Congestion::showOverSeams(const gl::ShaderLibrary& library, const Buffers& buffers,

@@ -35,6 +35,7 @@ class Congestion {
 
   private:
     void listBlocks(const gl::Buffer& changed, bool dense_too);
+    void readCellsAsTexels();
     void showOverSeams(const gl::ShaderLibrary& library, const Buffers& buffers,
                        const std::vector<glm::uvec2>& shown);
     void takeLifts(const gl::ShaderLibrary& library, const Buffers& buffers,
@@ -50,6 +51,7 @@ class Congestion {
     std::vector<bool> charged_;                     // which of them the ground has
     std::vector<gpu::GroundCell> free_ground_;      // without them
     gl::Buffer ground_, free_distances_, distances_, next_distances_, flows_;
+    gl::WordTexture ground_texels_, free_texels_, distance_texels_, flow_texels_;
     gl::Buffer field_maps_, dense_blocks_;
     gl::Buffer changed_before_, changed_now_;  // blocks of each field, the last time round and this time
     gl::Buffer listed_, block_dispatch_, no_blocks_;

@@ -30,7 +30,11 @@ class Seats {
     Buffers& buffers_;
     std::uint32_t count_;
     gl::Buffer next_;
-    gl::ComputeProgram lead_, minds_;
+    gl::Buffer lanes_, lane_mates_;  // who goes into a row from the same aisle
+    gl::Buffer walkers_;             // of each aisle, in the step under way
+    gl::WordTexture walker_texels_;
+    gl::Buffer walker_counts_;
+    gl::ComputeProgram list_walkers_, lead_, minds_;
 };
 
 }  // namespace throng::sim

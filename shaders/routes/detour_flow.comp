@@ -13,6 +13,7 @@ uniform float fading;  // 0 to 1: how much of what was known is replaced
 #include "shaders/cells/cells.glsl"
 #include "shaders/cells/cell_starts.glsl"
 #include "shaders/shared/flat_index.glsl"
+#include "shaders/shared/quotient.glsl"
 #include "shaders/shared/charts.glsl"
 #ifdef BELTS
 #include "shaders/shared/snap.glsl"
@@ -58,7 +59,7 @@ bool isCabin(vec2 place) { return false; }
 
 /// Brings one cell up to date. @returns its density
 float look(uint cell) {
-    vec2 at = vec2(cell % parameters.detour_width, cell / parameters.detour_width) + 0.5;
+    vec2 at = vec2(quotientAndRemainder(cell, parameters.detour_width).yx) + 0.5;
     vec2 middle = parameters.grid_minimum + at * parameters.detour_cell;
     CrowdFlow now = flowAround(middle, ground[cell].free_share);
     if (isCabin(middle)) now = CrowdFlow(vec2(0.0), 0.0, 0.0);

@@ -32,7 +32,8 @@ bool hasChangedAround(uint field, uint block) {
 void main() {
     uint index = flatIndex(), blocks = blocksOfMap();
     if (index >= field_count * blocks) return;
-    uint field = first_field + index / blocks, block = index % blocks;
+    uvec2 divided = quotientAndRemainder(index, blocks);
+    uint field = first_field + divided.x, block = divided.y;
     if ((dense_too != 0u && dense_blocks[block] != 0u) || hasChangedAround(field, block))
         // In whatever order: blocks do not meet.
         listed_blocks[atomicAdd(block_groups[0], 1u)] = field * blocks + block;

@@ -12,10 +12,7 @@
 
 layout(local_size_x = PIXEL_GROUP_SIZE) in;
 layout(std140) uniform ParametersBlock { Parameters parameters; };
-layout(std430) readonly buffer CrowdFlows { CrowdFlow crowd_flows[]; };
-layout(std430) readonly buffer Ground { GroundCell ground[]; };
-layout(std430) readonly buffer DetourDistances { float detour_distances[]; };
-layout(std430) readonly buffer FreeDistances { float free_distances[]; };  // without any crowd
+uniform usamplerBuffer crowd_flows;  // a CrowdFlow each, as bits
 layout(std430) readonly buffer ListedBlocks { uint listed_blocks[]; };
 layout(std430) readonly buffer FieldMaps { FieldMap field_maps[]; };
 layout(std430) writeonly buffer ChangedBlocks { uint changed_blocks[]; };
@@ -23,7 +20,13 @@ layout(std430) writeonly buffer NextDistances { float next_distances[]; };  // o
 uniform uint first_field;     // of this round
 
 #include "shaders/routes/detour_blocks.glsl"
+#include "shaders/routes/detour_maps.glsl"
 #include "shaders/routes/open_sides.glsl"
+
+CrowdFlow crowdAt(uint cell) {
+    uvec4 words = texelFetch(crowd_flows, int(cell));
+    return CrowdFlow(uintBitsToFloat(words.xy), uintBitsToFloat(words.z), 0.0);
+}
 
 /// Which way the nearest of the places is, by the last distances; a unit vector or zero.
 vec2 downhill(float here, vec4 beside) {
@@ -40,7 +43,7 @@ const float MOST_SLOPE_COST = 2.5;  // stairs: 2.0; more is due to walls beside 
 /// a walk to the next one. What counts then is how fast the crowd gets nearer to any of the places; or people would
 /// circle with those who circle.
 vec4 costsOfLeaving(uint cell, GroundCell ground_here, bool choice, float here, vec4 beside) {
-    CrowdFlow crowd = crowd_flows[cell];
+    CrowdFlow crowd = crowdAt(cell);
     vec4 cost = vec4(ground_here.cost * parameters.detour_cell);
     if (crowd.density > ROUTES_ROUND_JAMS_THIN) {
         vec4 along = choice ? vec4(dot(crowd.velocity, downhill(here, beside)))
@@ -81,13 +84,13 @@ float eikonal(vec2 x, vec2 y) {
 
 float relaxed(uint field, uint cell, float before) {
     uint first = field * cellsOfMap(), ground_first = field_maps[field].ground_map * cellsOfMap();
-    float free = free_distances[first + cell];
-    GroundCell here = ground[ground_first + cell];
+    float free = freeDistanceAt(first + cell);
+    GroundCell here = groundAt(ground_first + cell);
     // Targets and what nobody reaches stay as they are.
     if (free <= 0.0 || free >= BLOCKED_COST || here.cost >= BLOCKED_COST) return free;
     CellsBeside at = cellsBeside(cell);
-    vec4 beside = vec4(detour_distances[first + at.cells.x], detour_distances[first + at.cells.y],
-                       detour_distances[first + at.cells.z], detour_distances[first + at.cells.w]);
+    vec4 beside = vec4(detourDistanceAt(first + at.cells.x), detourDistanceAt(first + at.cells.y),
+                       detourDistanceAt(first + at.cells.z), detourDistanceAt(first + at.cells.w));
     beside = mix(vec4(BLOCKED_COST), beside, at.exist);
     vec4 cost = costsOfLeaving(cell, here, field_maps[field].has_choice != 0u, before, beside);
     bvec4 open = openBeside(ground_first, at, here.open_sides);
@@ -104,7 +107,7 @@ void main() {
     uint listed = listed_blocks[gl_WorkGroupID.x];
     ListedCell mine = cellOfBlock(listed);
     if (mine.cell >= cellsOfMap()) return;
-    float before = detour_distances[mine.field * cellsOfMap() + mine.cell];
+    float before = detourDistanceAt(mine.field * cellsOfMap() + mine.cell);
     float after = relaxed(mine.field, mine.cell, before);
     next_distances[(mine.field - first_field) * cellsOfMap() + mine.cell] = after;
     // Several may write, all the same; a barrier would cost more.

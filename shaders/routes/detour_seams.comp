@@ -22,8 +22,9 @@ uniform uint field_count;
 void main() {
     uint index = flatIndex();
     if (index >= shown_count * field_count) return;
-    uint field = first_field + index / shown_count;
-    uvec2 shown = shown_cells[index % shown_count];
+    uvec2 divided = quotientAndRemainder(index, shown_count);
+    uint field = first_field + divided.x;
+    uvec2 shown = shown_cells[divided.y];
     uint at = field * cellsOfMap() + shown.x, from = field * cellsOfMap() + shown.y;
 #ifdef SLOPES
     detour_slopes[at] = detour_slopes[from];

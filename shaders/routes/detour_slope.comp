@@ -4,28 +4,26 @@
 
 layout(local_size_x = PIXEL_GROUP_SIZE) in;
 layout(std140) uniform ParametersBlock { Parameters parameters; };
-layout(std430) readonly buffer FreeDistances { float free_distances[]; };
-layout(std430) readonly buffer Ground { GroundCell ground[]; };
-layout(std430) readonly buffer DetourDistances { float detour_distances[]; };
 layout(std430) writeonly buffer DetourSlopes { vec2 detour_slopes[]; };
 layout(std430) readonly buffer FieldMaps { FieldMap field_maps[]; };
 layout(std430) readonly buffer ListedBlocks { uint listed_blocks[]; };
 
 #include "shaders/routes/detour_blocks.glsl"
+#include "shaders/routes/detour_maps.glsl"
 #include "shaders/routes/open_sides.glsl"
 #include "shaders/shared/at_most.glsl"
 
 /// By how much a jam makes the way from a cell longer, or -1 where no way leads from.
 float delay(uint index) {
-    float free = free_distances[index];
-    return free >= BLOCKED_COST ? -1.0 : max(detour_distances[index] - free, 0.0);
+    float free = freeDistanceAt(index);
+    return free >= BLOCKED_COST ? -1.0 : max(detourDistanceAt(index) - free, 0.0);
 }
 
 /// The same beyond each side of a cell, or -1 where there is a wall.
 vec4 delaysBeside(uint field, uint cell) {
     uint first = field * cellsOfMap(), ground_first = field_maps[field].ground_map * cellsOfMap();
     CellsBeside at = cellsBeside(cell);
-    bvec4 open = openBeside(ground_first, at, ground[ground_first + cell].open_sides);
+    bvec4 open = openBeside(ground_first, at, groundAt(ground_first + cell).open_sides);
     vec4 beside = vec4(delay(first + at.cells.x), delay(first + at.cells.y), delay(first + at.cells.z),
                        delay(first + at.cells.w));
     return mix(vec4(-1.0), beside, open);

@@ -17,8 +17,12 @@ layout(std430) readonly buffer BehaviourStates { BehaviourState behaviour_states
 layout(std430) readonly buffer Minds { Mind minds[]; };
 layout(std430) readonly buffer SeatWays { SeatWay seat_ways[]; };
 layout(std430) readonly buffer SeatPoints { SeatPoint seat_points[]; };
+layout(std430) readonly buffer SeatLanes { SeatLane seat_lanes[]; };
+layout(std430) readonly buffer LaneMates { uint lane_mates[]; };
+layout(std430) readonly buffer AisleCounts { uint aisle_counts[]; };  // where those begin who share an aisle
 layout(std430) readonly buffer Sitters { Sitter sitters[]; };
 layout(std430) writeonly buffer SittersNext { Sitter sitters_next[]; };
+uniform usamplerBuffer aisle_walkers;  // two texels each: all look at all of them
 uniform uint sitter_count;
 uniform uint steps_done;  // counted with this one
 uniform uint may_cross;   // 1: people decide in this step, and who steps into their plane is seen at once
@@ -32,6 +36,7 @@ layout(std430) writeonly buffer Chests { Chest chests[]; };
 #include "shaders/cells/cell_runs.glsl"
 #include "shaders/motion/turn_towards.glsl"
 #include "shaders/seats/ways.glsl"
+#include "shaders/seats/on_its_way.glsl"
 #include "shaders/seats/others.glsl"
 #include "shaders/seats/pace.glsl"
 #include "shaders/seats/plane.glsl"

@@ -44,6 +44,25 @@ struct SeatWay {
     uint count_of_aisle;
 };
 
+/// Those who go into one row from one aisle: one behind the other in a list of their numbers.
+struct SeatLane {
+    uint first;
+    uint count;
+};
+
+/// Somebody on its way in an aisle, and what the others there look at (shaders/seats/others.glsl): of Sitter
+/// and SeatWay. As many words as two texels have.
+struct AisleWalker {
+    uint number;
+    uint mode;
+    uint side;
+    uint since;
+    float along;
+    float share;
+    float mouth;
+    uint lane_and_branch;  // 16 bits each
+};
+
 struct SeatPoint {
     vec2 place;    // m
     vec2 beside;   // m, from there to where those walk who come in; the others walk as far on the other side

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <epoxy/gl.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
+#include <glm/vec2.hpp>
 
 #include "sim/gl/program.h"
 #include "tests/sim/gpu_test.h"
@@ -75,13 +77,57 @@ TEST_F(GlTest, RefusesToRunAProgramWithAnUnboundBlockOrUnsetUniform) {
     EXPECT_THROW(program.set("no_such_uniform", 1u), std::logic_error);
 }
 
+/// A folder of shaders that goes with the test.
+class ShaderFolder {
+  public:
+    ShaderFolder() { std::filesystem::create_directories(path_); }
+    ~ShaderFolder() { std::filesystem::remove_all(path_); }
+    const std::filesystem::path& path() const { return path_; }
+    void add(const std::string& name, const std::string& text) const {
+        std::filesystem::create_directories((path_ / name).parent_path());
+        std::ofstream(path_ / name) << text;
+    }
+
+  private:
+    std::filesystem::path path_ =
+        std::filesystem::temp_directory_path() / ("throng_shaders_" + std::to_string(getpid()));
+};
+
+TEST_F(GlTest, QuotientsAndRemaindersAreThoseOfWholeNumbers) {
+    const ShaderFolder folder;
+    folder.add("test/quotients.comp", R"(
+layout(local_size_x = 64) in;
+layout(std430) readonly buffer Numbers { uvec2 numbers[]; };
+layout(std430) writeonly buffer Results { uvec2 results[]; };
+#include "shaders/shared/quotient.glsl"
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i < uint(numbers.length())) results[i] = quotientAndRemainder(numbers[i].x, numbers[i].y);
+}
+)");
+    std::vector<glm::uvec2> numbers;
+    for (const std::uint32_t divisor : {1u, 2u, 3u, 7u, 63u, 64u, 1'234u, 4'095u, 65'537u, 1u << 20})
+        for (const std::uint64_t quotient : {0u, 1u, 2u, 63u, 1'234u, 65'535u, 65'536u, (1u << 20) - 1u})
+            for (const std::uint64_t rest : {0u, 1u, divisor / 2u, divisor - 1u})
+                if (const std::uint64_t number = quotient * divisor + rest % divisor; number < 1ull << 32)
+                    numbers.emplace_back(static_cast<std::uint32_t>(number), divisor);
+    const gl::Buffer given = gl::makeBuffer("numbers", numbers), results("results", numbers.size() * 8);
+    gl::ComputeProgram program(gl::ShaderLibrary(folder.path()),
+                               {"test", {"shaders/test/quotients.comp"}, {"Numbers"}, {"Results"}});
+    program.bindAll({{"Numbers", &given}, {"Results", &results}});
+    program.dispatch(numbers.size());
+    const auto found = results.download<glm::uvec2>(numbers.size());
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        EXPECT_EQ(found[i], glm::uvec2(numbers[i].x / numbers[i].y, numbers[i].x % numbers[i].y))
+            << numbers[i].x << " by " << numbers[i].y;
+}
+
 // No debug context here: drivers also report the deliberate mistake through KHR_debug.
 TEST(Shaders, AreReadFromAFolderBeforeTheBinary) {
     const gl::Context context({});
-    const std::filesystem::path folder = std::filesystem::temp_directory_path() / "throng_shader_folder_test";
-    std::filesystem::create_directories(folder / "cells");
-    std::ofstream(folder / "cells" / "counts_sum.comp") << "this is not GLSL\n";
-    const gl::ShaderLibrary edited(folder);
+    const ShaderFolder folder;
+    folder.add("cells/counts_sum.comp", "this is not GLSL\n");
+    const gl::ShaderLibrary edited(folder.path());
     try {
         gl::ComputeProgram program(edited, kSum);
         FAIL() << "compiled nonsense";
@@ -91,7 +137,6 @@ TEST(Shaders, AreReadFromAFolderBeforeTheBinary) {
     }
     EXPECT_NO_THROW(gl::ComputeProgram(edited, kBinStarts));
     EXPECT_THROW(gl::ComputeProgram(edited, {"test", {"shaders/none.comp"}, {}, {}}), gl::GraphicsError);
-    std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -124,6 +124,16 @@ std::map<std::string, Layout> layoutsInCpp() {
                               MEMBER(free_side), MEMBER(first_of_aisle), MEMBER(count_of_aisle)}};
     }
     {
+        using T = gpu::SeatLane;
+        result["SeatLane"] = {sizeof(T), {MEMBER(first), MEMBER(count)}};
+    }
+    {
+        using T = gpu::AisleWalker;
+        result["AisleWalker"] = {sizeof(T),
+                                 {MEMBER(number), MEMBER(mode), MEMBER(side), MEMBER(since), MEMBER(along),
+                                  MEMBER(share), MEMBER(mouth), MEMBER(lane_and_branch)}};
+    }
+    {
         using T = gpu::SeatPoint;
         result["SeatPoint"] = {sizeof(T),
                                {MEMBER(place), MEMBER(beside), MEMBER(alone), MEMBER(height), MEMBER(along)}};
