@@ -12,6 +12,7 @@
 #include "base/files/output_file.h"
 #include "base/numbers.h"
 #include "base/palette.h"
+#include "base/side_by_side.h"
 #include "cli/baking/judge.h"
 #include "cli/batch/batch_plan.h"
 #include "cli/batch/results_query.h"
@@ -33,7 +34,7 @@ struct ReportOptions {
 
 std::string pageOf(const fs::path& folder) {
     io::CrowdReader crowd(io::loadBake(folder)), played(crowd.bake());
-    auto frames = std::async(std::launch::async, [&] { return analysis::framesOfReport(played); });
+    auto frames = std::async(kInAThread, [&] { return analysis::framesOfReport(played); });
     const auto [measured, missed] = judgeBake(crowd, {});
     return analysis::bakeReport(crowd, frames.get(), measured, missed);
 }

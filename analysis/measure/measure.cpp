@@ -16,6 +16,7 @@
 #include "analysis/measure/present.h"
 #include "analysis/measure/vehicle_watch.h"
 #include "analysis/stuck.h"
+#include "base/side_by_side.h"
 #include "base/storeys.h"
 #include "io/storeys.h"
 #include "recording/wall_watch.h"
@@ -296,7 +297,7 @@ Measurement measureBake(io::CrowdReader& crowd, const MeasureOptions& options) {
     if (crowd.frames() == 0)
         throw InputError(crowd.bake().folder, "has no frames: there is nothing to measure");
     io::CrowdReader second(crowd.bake());
-    auto nearness = std::async(std::launch::async, [&] { return measureNearness(second); });
+    auto nearness = std::async(kInAThread, [&] { return measureNearness(second); });
     Measurement result = Measurer(crowd, options).run();
     add(nearness.get(), result);
     return result;

@@ -4,15 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <bit>
 #include <glm/common.hpp>
 #include <glm/packing.hpp>
 #include <set>
-#include <thread>
 
 #include "authoring/layout/seat_rows.h"
 #include "authoring/scene/raster.h"
+#include "base/side_by_side.h"
 
 namespace throng::authoring {
 namespace {
@@ -88,16 +87,10 @@ std::shared_ptr<const Field> Routes::solve(const std::vector<Place>& places, boo
 
 void Routes::solveEach(const std::vector<std::uint32_t>& fields,
                        const std::function<void(std::uint32_t)>& solve) {
-    std::atomic<std::size_t> next = 0;
-    const auto work = [&] {
-        for (std::size_t i = next++; i < fields.size(); i = next++)
-            solve(fields[i]);
-    };
-    if (ground_.solver()) return work();  // a device works for this thread only
-    std::vector<std::jthread> workers;
-    for (std::size_t i = 0; i < std::min<std::size_t>(std::thread::hardware_concurrency(), fields.size());
-         ++i)
-        workers.emplace_back(work);
+    if (ground_.solver())  // a device works for this thread only
+        std::ranges::for_each(fields, solve);
+    else
+        doEach(fields.size(), [&](std::size_t i) { solve(fields[i]); });
 }
 
 void Routes::solveAll(const std::vector<std::vector<Place>>& destinations, bool keep_to_roads) {

@@ -34,6 +34,7 @@
 #include "authoring/scene/walls.h"
 #include "authoring/scene/ways_check.h"
 #include "authoring/storeys/charts.h"
+#include "base/side_by_side.h"
 
 namespace throng::authoring {
 namespace {
@@ -68,7 +69,7 @@ class SceneAssembly {
         if (terrain_mesh_ && layout_.terrain && !scene_.terrain) return std::nullopt;
         Routes routes = planRoutes();
         Itineraries itineraries(layout_, rebase_, geometry_, routes, diagnostics_, scene_);
-        std::future<CloseStarts> close = std::async(std::launch::async, [this] {
+        std::future<CloseStarts> close = std::async(kInAThread, [this] {
             return closeStarts(scene_, geometry_, layout_.flows.size(), layout_.formations.size());
         });
         itineraries.prepare();

@@ -8,6 +8,7 @@ import subprocess
 
 import pytest
 
+from conftest import ROOT
 from processor_time import HANGS
 from test_bakes import SMALL, write
 
@@ -122,3 +123,15 @@ def test_two_batches_on_one_folder_make_one_batch(throng, tmp_path):
         process.communicate(timeout=HANGS)
     throng(*words[1:])
     assert "2 of 2 bakes are whole" in throng("verify", tmp_path / "out", "-q").stdout
+
+
+def test_too_little_memory_is_told_in_one_line(throng):
+    """However little, and whichever thread it is that runs out of it."""
+    told = set()
+    for most in range(60, 360, 20):  # MiB of addresses: 340 are enough, and with 60 no thread can be begun
+        process = subprocess.run(["prlimit", f"--as={most << 20}", throng.binary, "check",
+                                  ROOT / "scenarios" / "corridor.json"], capture_output=True, text=True, timeout=HANGS)
+        assert process.returncode in (0, 3), (most, process)
+        assert len(process.stderr.splitlines()) <= 1 and "terminate" not in process.stderr, (most, process)
+        told.add(process.stderr)
+    assert "throng: there is not enough memory for this\n" in told
