@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Division of whole numbers by ones that only the parameters know. Few processors divide several of those at once: a
-// software renderer does it one invocation after the other, which took a third of the time of routes round jams.
+// software renderer does it one invocation after the other, which took a sixth of the time of routes round jams.
 
 /// number / divisor, and number % divisor; where the quotient is below 2^20, floats tell it to within one.
 uvec2 quotientAndRemainder(uint number, uint divisor) {
